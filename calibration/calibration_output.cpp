@@ -94,7 +94,7 @@ std::string calibration_json(const CalibrationResult& result) {
                         {"residual_before", number(result.residual_before)},
                         {"residual_after", number(result.residual_after)},
                         {"warnings", result.warnings},
-                        {"doubts", result.doubts},
+                        {"doubts", result.contradictions},
                         {"notes", result.notes},
                         {"residual_unit", result.residual_unit},
                         {"sha256", hashes},

@@ -67,6 +67,12 @@ std::vector<CalibratedParameter> by_change(const CalibrationResult& result) {
   return sorted;
 }
 
+/// In percent, two digits or, of more than ten, whole ones.
+std::string change(double before, double found) {
+  const double percent = 100.0 * (found / before - 1.0);
+  return std::abs(percent) < 10.0 ? fmt::format("{:+.2g} %", percent) : fmt::format("{:+.0f} %", percent);
+}
+
 std::string table(const CalibrationResult& result) {
   constexpr const char* none = "–";
   std::string html =
@@ -79,9 +85,7 @@ std::string table(const CalibrationResult& result) {
     html += cell(parameter.identifiable ? fmt::format("{:.6g}", parameter.value) : none, "found");
     html += cell(parameter.deviation ? fmt::format("{:.2g}", *parameter.deviation) : none, "deviation");
     html += cell(escaped(parameter.unit), "unit");
-    html +=
-        cell(has_share ? fmt::format("{:+.2g} %", 100.0 * (parameter.value / *parameter.before - 1.0)) : none,
-             "change");
+    html += cell(has_share ? change(*parameter.before, parameter.value) : none, "change");
     html += cell(by ? fmt::format("{:+.1f}", *by) : none, "in deviations");
     html += cell(parameter.identifiable ? "" : "not identifiable: as believed before") + "</tr>";
   }
@@ -174,7 +178,8 @@ std::string calibration_page(const CalibrationResult& result, const std::string&
       "<p>What is left unexplained: <b>{:.4g}{}</b> with what was believed, <b>{:.4g}{}</b> with what "
       "was found (root mean square).</p></header>",
       result.residual_before, unit, result.residual_after, unit);
-  for (const std::string& doubt : result.doubts) html += "<p class='warning'>" + escaped(doubt) + "</p>";
+  for (const std::string& doubt : result.contradictions)
+    html += "<p class='warning'>" + escaped(doubt) + "</p>";
   for (const std::string& warning : result.warnings)
     html += "<p class='warning'>" + escaped(warning) + "</p>";
   for (const std::string& note : result.notes) html += "<p>" + escaped(note) + "</p>";

@@ -55,7 +55,7 @@ struct CalibrationResult {
   std::vector<std::string> warnings;  ///< What is wrong and what to do about it, one sentence each.
   /// Why what it was given cannot be right, with the likely cause, one sentence each. Nothing of it should be
   /// used then.
-  std::vector<std::string> doubts;
+  std::vector<std::string> contradictions;
 
   Eigen::MatrixXd covariance;  ///< Of the parameters, in their order.
   Eigen::MatrixXd influence;   ///< How each parameter changes where each recording is left out; or empty.

@@ -292,7 +292,7 @@ void note_settings(const std::vector<Scenario>& scenarios, ThresholdFindings& fo
 }
 
 std::vector<std::string> warnings(const ThresholdFindings& found) {
-  std::vector<std::string> all = found.doubts;
+  std::vector<std::string> all = found.warnings;
   for (const EstimatorThresholds& of : found.estimators) {
     if (of.stretches >= few_stretches) continue;
     all.push_back(

@@ -23,7 +23,7 @@ struct ThresholdFindings {
   ConfigurationSpace space = ConfigurationSpace::Kind::planar_pose;  ///< of the robot
   ResidualTracking tracking{};  ///< with which the fused detector must follow its residuals
   bool drives_turn = true;
-  std::vector<std::string> doubts{};  ///< about single recordings, one sentence each
+  std::vector<std::string> warnings{};  ///< about single recordings, one sentence each
   /// Of what the classifiers and locators read, at each drive; empty: not recorded [Nm or N]
   JointVector drive_deviations{};
 };

@@ -5,7 +5,7 @@
 namespace flinch {
 namespace {
 
-OutputPort<PlatformAcceleration> add(const StageSite& site, const MotionPorts& given,
+OutputPort<PlatformAcceleration> add(const StageContext& site, const MotionPorts& given,
                                      ImuFilterSettings settings) {
   settings.mount = site.settings.imu_mount;
   settings.stamp_spread = site.settings.imu_stamp_spread;
@@ -15,15 +15,16 @@ OutputPort<PlatformAcceleration> add(const StageSite& site, const MotionPorts& g
   return filter.acceleration;
 }
 
-OutputPort<PlatformAcceleration> add_imu_ekf(const StageSite& site, const MotionPorts& given) {
+OutputPort<PlatformAcceleration> add_imu_ekf(const StageContext& site, const MotionPorts& given) {
   return add(site, given, site.settings.imu_ekf);
 }
 
-OutputPort<PlatformAcceleration> add_extended_imu_ekf(const StageSite& site, const MotionPorts& given) {
+OutputPort<PlatformAcceleration> add_extended_imu_ekf(const StageContext& site, const MotionPorts& given) {
   return add(site, given, site.settings.extended_imu_ekf);
 }
 
-OutputPort<PlatformAcceleration> add_unscented_imu_filter(const StageSite& site, const MotionPorts& given) {
+OutputPort<PlatformAcceleration> add_unscented_imu_filter(const StageContext& site,
+                                                          const MotionPorts& given) {
   return add(site, given, site.settings.unscented_imu_filter);
 }
 

@@ -9,8 +9,8 @@
 
 namespace flinch {
 
-std::optional<InputPort<BaseForceReading>> add_base_forces(const StageSite& site, const ContactPorts& given,
-                                                           OtherStages& shown) {
+std::optional<InputPort<BaseForceReading>> add_base_forces(const StageContext& site,
+                                                           const ContactPorts& given, OtherStages& shown) {
   const IsolationSettings& settings = site.settings.isolation;
   if (!settings.base_forces) return std::nullopt;
   const auto bases = leg_bases(site.robot, settings.base_forces->first_moment, *site.robot);

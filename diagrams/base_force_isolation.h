@@ -10,7 +10,7 @@ namespace flinch {
 /// Adds what force sensors below the base joints tell of contacts, and shows it; returns where their readings
 /// go. Nothing where the settings know of no such sensors. Throws SetupError for a robot that has no model of
 /// its base joints.
-std::optional<InputPort<BaseForceReading>> add_base_forces(const StageSite& site, const ContactPorts& given,
-                                                           OtherStages& shown);
+std::optional<InputPort<BaseForceReading>> add_base_forces(const StageContext& site,
+                                                           const ContactPorts& given, OtherStages& shown);
 
 }  // namespace flinch

@@ -12,7 +12,7 @@
 #include "diagrams/safety_filtering.h"
 #include "diagrams/shared_parts.h"
 #include "diagrams/watched_imu.h"
-#include "systems/contact/told_contact.h"
+#include "systems/contact/oracle_contact.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/laws/operator_buttons.h"
@@ -31,11 +31,11 @@ struct Path {
   const Robot& robot;
   const ContactControlSettings& settings;
   std::shared_ptr<SharedParts> shared = std::make_shared<SharedParts>();
-  /// Which stages judge by; see StageSite.
+  /// Which stages judge by; see StageContext.
   std::shared_ptr<std::vector<Named<OutputPort<DriveLoad>>>> loads =
       std::make_shared<std::vector<Named<OutputPort<DriveLoad>>>>();
 
-  StageSite site(const std::string& name) const {
+  StageContext site(const std::string& name) const {
     return {builder, name, robot, settings, *shared, loads.get()};
   }
 
@@ -351,7 +351,7 @@ struct Told {
 };
 
 Told add_told_contact(const Path& path, ReactionPorts& reaction) {
-  auto& told = path.builder.add<ToldContact>("told_contact");
+  auto& told = path.builder.add<OracleContact>("told_contact");
   const Told given{path.builder.optional_input<ContactClassification>("told_classification"),
                    path.builder.optional_input<ContactLocation>("told_location")};
   path.builder.connect(given.classification, told.told_classification);

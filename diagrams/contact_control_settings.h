@@ -38,7 +38,7 @@ struct OwnThreshold {
   std::optional<ComponentBounds> moment;  ///< [Nm]
 };
 
-/// All that can be set in the contact-control pipeline. The defaults are those of the planar bench;
+/// All that can be set in the contact-control pipeline. The defaults are those of the planar rig;
 /// settings_for() (robot_settings.h) has those of any robot. Each block's own settings say what they mean and
 /// where they come from.
 struct ContactControlSettings {
@@ -55,7 +55,7 @@ struct ContactControlSettings {
 
   ImuMount imu_mount;  ///< pose 1 of [RAL25] V-B; for all that reads the IMU
   /// Width of the range in which the stamps of an IMU err whose delay varies; for all that compares it with
-  /// a model. 0: they are as exact as those of the bench.
+  /// a model. 0: they are as exact as those of the rig.
   Time imu_stamp_spread{};
   ImuFilterSettings imu_ekf = published_imu_filter();
   ImuFilterSettings extended_imu_ekf = extended_imu_filter();

@@ -17,13 +17,13 @@
 namespace flinch {
 namespace {
 
-OutputPort<JointMotion> add_velocity_filter(const StageSite& site, const SensedPorts& given) {
+OutputPort<JointMotion> add_velocity_filter(const StageContext& site, const SensedPorts& given) {
   auto& filter = site.builder.add<VelocityFilter>(site.name, site.robot, site.settings.velocity_filter);
   site.builder.connect(given.joints, filter.joints);
   return filter.motion;
 }
 
-OutputPort<ContactDetection> add_contact_detector(const StageSite& site, const EstimatePorts& given) {
+OutputPort<ContactDetection> add_contact_detector(const StageContext& site, const EstimatePorts& given) {
   const std::string estimator = followed_name(site.settings.stages.estimators);
   auto& detector =
       site.builder.add<ContactDetector>(site.name, site.robot, site.settings.detector_of(estimator));
@@ -32,7 +32,7 @@ OutputPort<ContactDetection> add_contact_detector(const StageSite& site, const E
   return detector.contact;
 }
 
-LawPorts add_impedance(const StageSite& site, const std::string& name, const ImpedanceSettings& settings,
+LawPorts add_impedance(const StageContext& site, const std::string& name, const ImpedanceSettings& settings,
                        const MotionPorts& given, OutputPort<PlatformReference> reference) {
   auto& impedance = site.builder.add<ImpedanceController>(name, site.robot, settings);
   site.builder.connect(given.kinematics, impedance.kinematics);
@@ -41,7 +41,7 @@ LawPorts add_impedance(const StageSite& site, const std::string& name, const Imp
   return {.torque = impedance.torque, .reference = reference};
 }
 
-LawPorts add_nominal_impedance(const StageSite& site, const ReactionPorts& given) {
+LawPorts add_nominal_impedance(const StageContext& site, const ReactionPorts& given) {
   return add_impedance(site, site.name, site.settings.impedance, given, given.nominal);
 }
 
@@ -53,7 +53,7 @@ ImpedanceSettings softened(const ImpedanceSettings& nominal, double share, const
   return settings;
 }
 
-LawPorts add_retraction(const StageSite& site, const ReactionPorts& given) {
+LawPorts add_retraction(const StageContext& site, const ReactionPorts& given) {
   auto& retraction = site.builder.add<Retraction>(site.name, site.robot, site.settings.retraction);
   site.builder.connect(given.reaction, retraction.reaction);
   site.builder.connect(given.platform, retraction.platform);
@@ -65,7 +65,7 @@ LawPorts add_retraction(const StageSite& site, const ReactionPorts& given) {
 
 /// Stands for a classifier that asks networks until a program adds it: files that name it can be read.
 ContactClassifier without_networks(const std::string& name) {
-  const auto refuse = [name](const StageSite&, const ContactPorts&) -> OutputPort<ContactClassification> {
+  const auto refuse = [name](const StageContext&, const ContactPorts&) -> OutputPort<ContactClassification> {
     throw SetupError("the classifier '" + name +
                      "' asks networks, of which this program knows none; it must hand those of "
                      "network_stages() to add_known_classifier() first");

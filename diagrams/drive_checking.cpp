@@ -5,7 +5,7 @@
 
 namespace flinch {
 
-CheckedTorques add_drive_check(const StageSite& site, const ReactionPorts& given,
+CheckedTorques add_drive_check(const StageContext& site, const ReactionPorts& given,
                                OutputPort<TorqueCommand> torque, const PlatformTrajectory& trajectory) {
   if (!site.settings.checks_drives || !site.settings.plausibility.commands_act) {
     auto& unwanted = site.builder.add<Constant<DriveCheckStatus>>("no_" + site.name, DriveCheckStatus());

@@ -15,7 +15,7 @@ struct CheckedTorques {
 
 /// Lets the drives be tried while the laws hold the robot at rest, where that is wanted and commands reach
 /// them. `torque`: of the laws; `trajectory`: the nominal motion, which waits until they are known.
-CheckedTorques add_drive_check(const StageSite& site, const ReactionPorts& given,
+CheckedTorques add_drive_check(const StageContext& site, const ReactionPorts& given,
                                OutputPort<TorqueCommand> torque, const PlatformTrajectory& trajectory);
 
 }  // namespace flinch

@@ -16,7 +16,7 @@ namespace {
 
 /// An estimator of the momentum: one of its own inputs is all that each of them reads.
 template <class Estimator, class Settings>
-OutputPort<WrenchEstimate> add(const StageSite& site, const AcceleratedPorts& given,
+OutputPort<WrenchEstimate> add(const StageContext& site, const AcceleratedPorts& given,
                                const Settings& settings) {
   auto& estimator = site.builder.add<Estimator>(site.name, site.robot, settings);
   site.builder.connect(given.platform, estimator.platform);
@@ -27,25 +27,27 @@ OutputPort<WrenchEstimate> add(const StageSite& site, const AcceleratedPorts& gi
 }
 
 /// Shared: the stage is that to which others fall back.
-OutputPort<WrenchEstimate> add_momentum_observer(const StageSite& site, const AcceleratedPorts& given) {
+OutputPort<WrenchEstimate> add_momentum_observer(const StageContext& site, const AcceleratedPorts& given) {
   std::optional<OutputPort<WrenchEstimate>>& observer = site.shared.momentum_observer;
   if (!observer) {
-    const StageSite own{site.builder, "momentum_observer", site.robot, site.settings, site.shared};
+    const StageContext own{site.builder, "momentum_observer", site.robot, site.settings, site.shared};
     observer = add<MomentumObserver>(own, given, site.settings.momentum_observer);
   }
   return *observer;
 }
 
-OutputPort<WrenchEstimate> add_momentum_kalman_filter(const StageSite& site, const AcceleratedPorts& given) {
+OutputPort<WrenchEstimate> add_momentum_kalman_filter(const StageContext& site,
+                                                      const AcceleratedPorts& given) {
   return add<MomentumKalmanFilter>(site, given, site.settings.momentum_kalman_filter);
 }
 
-OutputPort<WrenchEstimate> add_sliding_mode_observer(const StageSite& site, const AcceleratedPorts& given) {
+OutputPort<WrenchEstimate> add_sliding_mode_observer(const StageContext& site,
+                                                     const AcceleratedPorts& given) {
   return add<SlidingModeObserver>(site, given, site.settings.sliding_mode_observer);
 }
 
 /// An estimate that needs the IMU, and beside it the momentum observer for where that fails.
-OutputPort<WrenchEstimate> add_fallback(const StageSite& site, const AcceleratedPorts& given,
+OutputPort<WrenchEstimate> add_fallback(const StageContext& site, const AcceleratedPorts& given,
                                         OutputPort<WrenchEstimate> preferred) {
   auto& fallback = site.builder.add<EstimateFallback>(site.name);
   site.builder.connect(preferred, fallback.preferred);
@@ -54,7 +56,7 @@ OutputPort<WrenchEstimate> add_fallback(const StageSite& site, const Accelerated
 }
 
 /// The direct method at the motion and model of `present`.
-OutputPort<WrenchEstimate> add_direct(const StageSite& site, const AcceleratedPorts& given,
+OutputPort<WrenchEstimate> add_direct(const StageContext& site, const AcceleratedPorts& given,
                                       const AcceleratedPorts& present,
                                       OutputPort<PlatformAcceleration> acceleration) {
   DiagramBuilder& builder = site.builder;
@@ -68,7 +70,7 @@ OutputPort<WrenchEstimate> add_direct(const StageSite& site, const AcceleratedPo
   return add_fallback(site, given, direct.wrench);
 }
 
-OutputPort<WrenchEstimate> add_direct_method(const StageSite& site, const AcceleratedPorts& given) {
+OutputPort<WrenchEstimate> add_direct_method(const StageContext& site, const AcceleratedPorts& given) {
   if (given.accelerations.empty()) {
     throw SetupError("the estimator '" + site.name +
                      "' needs an acceleration: let one of control.accelerations run");
@@ -77,7 +79,7 @@ OutputPort<WrenchEstimate> add_direct_method(const StageSite& site, const Accele
 }
 
 /// The acceleration of the source of this name: that which runs, else one for this estimator alone.
-OutputPort<PlatformAcceleration> acceleration_of(const std::string& name, const StageSite& site,
+OutputPort<PlatformAcceleration> acceleration_of(const std::string& name, const StageContext& site,
                                                  const AcceleratedPorts& given) {
   for (const auto& running : given.accelerations) {
     if (running.name == name) return running.port;
@@ -88,19 +90,20 @@ OutputPort<PlatformAcceleration> acceleration_of(const std::string& name, const 
   return source->add(part(site, name), given);
 }
 
-OutputPort<WrenchEstimate> add_direct_imu_ekf(const StageSite& site, const AcceleratedPorts& given) {
+OutputPort<WrenchEstimate> add_direct_imu_ekf(const StageContext& site, const AcceleratedPorts& given) {
   return add_direct(site, given, given, acceleration_of("imu_ekf", site, given));
 }
 
-OutputPort<WrenchEstimate> add_direct_extended_imu_ekf(const StageSite& site, const AcceleratedPorts& given) {
+OutputPort<WrenchEstimate> add_direct_extended_imu_ekf(const StageContext& site,
+                                                       const AcceleratedPorts& given) {
   return add_direct(site, given, low_latency(site, given), acceleration_of("extended_imu_ekf", site, given));
 }
 
-OutputPort<WrenchEstimate> add_disturbance_filter(const StageSite& site, const AcceleratedPorts& given) {
+OutputPort<WrenchEstimate> add_disturbance_filter(const StageContext& site, const AcceleratedPorts& given) {
   return add_encoder_filter(site, given, site.settings.disturbance_filter).wrench;
 }
 
-OutputPort<WrenchEstimate> add_imu_residual_alone(const StageSite& site, const AcceleratedPorts& given) {
+OutputPort<WrenchEstimate> add_imu_residual_alone(const StageContext& site, const AcceleratedPorts& given) {
   return add_imu_residual(site, given, low_latency(site, given));
 }
 
@@ -117,7 +120,7 @@ std::vector<WrenchEstimator> estimator_stages() {
           {"imu_residual", add_imu_residual_alone}};
 }
 
-OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const AcceleratedPorts& given,
+OutputPort<WrenchEstimate> add_imu_residual(const StageContext& site, const AcceleratedPorts& given,
                                             const AcceleratedPorts& present) {
   DiagramBuilder& builder = site.builder;
   ImuResidualSettings settings = site.settings.imu_residual;

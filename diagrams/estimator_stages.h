@@ -11,7 +11,7 @@ namespace flinch {
 std::vector<WrenchEstimator> estimator_stages();
 
 /// The estimator "imu_residual" where the motion without a lag is known, with the model there: `present`.
-OutputPort<WrenchEstimate> add_imu_residual(const StageSite& site, const AcceleratedPorts& given,
+OutputPort<WrenchEstimate> add_imu_residual(const StageContext& site, const AcceleratedPorts& given,
                                             const AcceleratedPorts& present);
 
 }  // namespace flinch

@@ -18,7 +18,7 @@
 namespace flinch {
 namespace {
 
-OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& given,
+OutputPort<DriveLoad> add_loads(const StageContext& site, const AcceleratedPorts& given,
                                 const LowLatencyPorts& present) {
   auto& loads = site.builder.add<DriveLoads>(site.name + "_loads", site.robot);
   site.builder.connect(present.platform, loads.platform);
@@ -30,7 +30,7 @@ OutputPort<DriveLoad> add_loads(const StageSite& site, const AcceleratedPorts& g
 
 /// That which runs, else one for this detector alone; of those that need a motion without a lag it is the
 /// detector's.
-OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageSite& site,
+OutputPort<WrenchEstimate> estimate_of(const std::string& name, const StageContext& site,
                                        const EstimatePorts& given, const LowLatencyPorts& present) {
   std::vector<std::string> known;
   for (const auto& running : given.estimates) {
@@ -58,7 +58,7 @@ MahalanobisThreshold with_stamps(MahalanobisThreshold limit, const ContactContro
   return limit;
 }
 
-OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResidual& residual,
+OutputPort<ContactDetection> add_residual(const StageContext& site, const FusedResidual& residual,
                                           const EstimatePorts& given, const LowLatencyPorts& present,
                                           OutputPort<DriveLoad> load) {
   WhitenedDetectorSettings settings{.level = residual.level,
@@ -85,7 +85,7 @@ OutputPort<ContactDetection> add_residual(const StageSite& site, const FusedResi
   return detector.contact;
 }
 
-OutputPort<ContactDetection> add_nothing(const StageSite& site) {
+OutputPort<ContactDetection> add_nothing(const StageContext& site) {
   if (followed_name(site.settings.stages.detectors) == site.name) {
     throw SetupError(site.name +
                      " is followed but has no residuals to judge by; flinch calibrate thresholds finds them");
@@ -102,21 +102,21 @@ ResidualTracking tracking_of(const std::string& estimator, const ContactControlS
   return tracking;
 }
 
-OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const EstimatePorts& given) {
+OutputPort<ContactDetection> add_fused_detector(const StageContext& site, const EstimatePorts& given) {
   const LowLatencyPorts present = low_latency(site, given);
   const OutputPort<DriveLoad> load = add_loads(site, given, present);
   if (site.loads != nullptr) site.loads->push_back({site.name, load});
   const std::vector<FusedResidual>& residuals = site.settings.fused_detector.residuals;
   if (residuals.empty()) return add_nothing(site);
-  OutputPort<ContactDetection> noticed = add_residual(site, residuals.front(), given, present, load);
+  OutputPort<ContactDetection> detected = add_residual(site, residuals.front(), given, present, load);
   for (std::size_t i = 1; i < residuals.size(); ++i) {
     const std::string name = i + 1 < residuals.size() ? site.name + "_" + std::to_string(i) : site.name;
     auto& either = site.builder.add<MaxDetector>(name);
-    site.builder.connect(noticed, either.first);
+    site.builder.connect(detected, either.first);
     site.builder.connect(add_residual(site, residuals[i], given, present, load), either.second);
-    noticed = either.contact;
+    detected = either.contact;
   }
-  return noticed;
+  return detected;
 }
 
 }  // namespace flinch

@@ -15,6 +15,6 @@ ResidualTracking tracking_of(const std::string& estimator, const ContactControlS
 /// `WhitenedDetector` on each, and either of them. An estimator that does not run is added for it alone. Hard
 /// contacts are those of `contact_detector`. Throws SetupError for an estimator that there is not, and where
 /// it is followed and has no residual.
-OutputPort<ContactDetection> add_fused_detector(const StageSite& site, const EstimatePorts& given);
+OutputPort<ContactDetection> add_fused_detector(const StageContext& site, const EstimatePorts& given);
 
 }  // namespace flinch

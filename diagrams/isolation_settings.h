@@ -35,13 +35,13 @@ struct IsolationSettings {
   /// Of the momentum observer that it reads, for every coordinate alike: at the detection tick of one with 20
   /// 1/s that one still estimates a small part of the force [1/s].
   double observer_gain = 100.0;
-  /// Of that observer, measured on the realistic bench, as are the frequencies below.
+  /// Of that observer, measured on the realistic rig, as are the frequencies below.
   WrenchUncertainty uncertainty{
       .force = 1.5, .moment = 0.12, .share_of_force = 0.02, .share_of_lever = 0.002};
   Time same_contact = 100ms;  ///< for so long a contact that has gone may come back as the same
 
   FeatureSettings features;
-  /// Biases are those of the planar bench; settings_for() has none for robots in space.
+  /// Biases are those of the planar rig; settings_for() has none for robots in space.
   TouchHypothesesSettings hypotheses{.object_speed = 0.2,
                                      .object_radius = 0.04,
                                      .softness = 0.005,

@@ -4,7 +4,7 @@
 
 #include "diagrams/contact_control_settings.h"
 #include "systems/contact/contact_period.h"
-#include "systems/contact/course_memory.h"
+#include "systems/contact/contact_window_buffer.h"
 #include "systems/contact/evidence_estimator.h"
 #include "systems/contact/particle_locator.h"
 #include "systems/contact/wrench_trend.h"
@@ -14,7 +14,7 @@
 namespace flinch {
 namespace {
 
-OutputPort<ContactClassification> add_model_classifier(const StageSite& site, const ContactPorts& given) {
+OutputPort<ContactClassification> add_model_classifier(const StageContext& site, const ContactPorts& given) {
   auto& classifier =
       site.builder.add<ModelClassifier>(site.name, site.robot, site.settings.isolation.model_classifier);
   site.builder.connect(given.contact, classifier.phase);
@@ -22,7 +22,7 @@ OutputPort<ContactClassification> add_model_classifier(const StageSite& site, co
   return classifier.classification;
 }
 
-OutputPort<ContactClassification> add_decision_tree(const StageSite& site, const ContactPorts& given) {
+OutputPort<ContactClassification> add_decision_tree(const StageContext& site, const ContactPorts& given) {
   auto& tree = site.builder.add<DecisionTree>(site.name, site.robot, site.settings.isolation.decision_tree);
   site.builder.connect(given.contact, tree.phase);
   site.builder.connect(given.features, tree.features);
@@ -31,7 +31,7 @@ OutputPort<ContactClassification> add_decision_tree(const StageSite& site, const
 }
 
 template <class Locator>
-void connect_locator(const StageSite& site, const ClassifiedPorts& given, Locator& locator) {
+void connect_locator(const StageContext& site, const ClassifiedPorts& given, Locator& locator) {
   site.builder.connect(given.contact, locator.phase);
   site.builder.connect(given.classification, locator.classification);
   site.builder.connect(given.kinematics, locator.kinematics);
@@ -39,7 +39,7 @@ void connect_locator(const StageSite& site, const ClassifiedPorts& given, Locato
   site.builder.connect(given.isolation_change, locator.change);
 }
 
-LocatorPorts add_closed_form(const StageSite& site, const ClassifiedPorts& given) {
+LocatorPorts add_closed_form(const StageContext& site, const ClassifiedPorts& given) {
   const IsolationSettings& settings = site.settings.isolation;
   auto& locator =
       site.builder.add<ContactLocator>(site.name, site.robot, settings.closed_form, settings.uncertainty);
@@ -47,7 +47,7 @@ LocatorPorts add_closed_form(const StageSite& site, const ClassifiedPorts& given
   return {.location = locator.location};
 }
 
-LocatorPorts add_particle_filter(const StageSite& site, const ClassifiedPorts& given) {
+LocatorPorts add_particle_filter(const StageContext& site, const ClassifiedPorts& given) {
   const IsolationSettings& settings = site.settings.isolation;
   auto& locator =
       site.builder.add<ParticleLocator>(site.name, site.robot, settings.particle_filter, settings.closed_form,
@@ -56,7 +56,7 @@ LocatorPorts add_particle_filter(const StageSite& site, const ClassifiedPorts& g
   return {.location = locator.location, .cloud = locator.cloud};
 }
 
-MomentumObserver& add_observer(const StageSite& site, const EstimatePorts& given) {
+MomentumObserver& add_observer(const StageContext& site, const EstimatePorts& given) {
   MomentumObserverSettings settings = site.settings.momentum_observer;
   if (!(site.settings.isolation.observer_gain > 0.0)) {
     throw SetupError("isolation: observer_gain must be positive [1/s]");
@@ -78,11 +78,11 @@ std::vector<ContactClassifier> classifier_stages() {
 
 ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
   return {"learned_classifier",
-          [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
+          [settings = std::move(settings)](const StageContext& site, const ContactPorts& given) {
             DiagramBuilder& builder = site.builder;
             auto& classifier = builder.add<LearnedClassifier>(site.name, site.robot, settings);
-            auto& course = builder.add<CourseMemory>(site.name + "_course", settings.window,
-                                                     site.settings.control_period);
+            auto& course = builder.add<ContactWindowBuffer>(site.name + "_course", settings.window,
+                                                            site.settings.control_period);
             // The evidence that it was trained with, whatever the model classifier is told.
             const auto evidence_of = [&](const std::string& name, OutputPort<WrenchEstimate> wrench) {
               auto& evidence =
@@ -107,7 +107,7 @@ ContactClassifier learned_classifier_stage(LearnedClassifierSettings settings) {
 
 ContactClassifier papers_networks_stage(PapersClassifierSettings settings) {
   return {"papers_networks",
-          [settings = std::move(settings)](const StageSite& site, const ContactPorts& given) {
+          [settings = std::move(settings)](const StageContext& site, const ContactPorts& given) {
             auto& classifier = site.builder.add<PapersClassifier>(site.name, site.robot, settings);
             site.builder.connect(given.contact, classifier.phase);
             site.builder.connect(given.features, classifier.features);
@@ -119,7 +119,7 @@ std::vector<ContactLocatorStage> locator_stages() {
   return {{"closed_form", add_closed_form}, {"particle_filter", add_particle_filter}};
 }
 
-ContactPorts add_isolation(const StageSite& site, const EstimatePorts& given,
+ContactPorts add_isolation(const StageContext& site, const EstimatePorts& given,
                            OutputPort<ContactDetection> detection) {
   DiagramBuilder& builder = site.builder;
   const IsolationSettings& settings = site.settings.isolation;

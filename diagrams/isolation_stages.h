@@ -22,7 +22,7 @@ std::vector<ContactLocatorStage> locator_stages();
 
 /// Adds what all classifiers and locators read: the contact that lasts, the fast observer, features and
 /// evidence.
-ContactPorts add_isolation(const StageSite& site, const EstimatePorts& given,
+ContactPorts add_isolation(const StageContext& site, const EstimatePorts& given,
                            OutputPort<ContactDetection> detection);
 
 }  // namespace flinch

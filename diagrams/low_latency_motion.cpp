@@ -9,11 +9,11 @@
 namespace flinch {
 namespace {
 
-StageSite named(const StageSite& site, const std::string& name) {
+StageContext named(const StageContext& site, const std::string& name) {
   return {site.builder, name, site.robot, site.settings, site.shared, site.loads};
 }
 
-OutputPort<DriveTorque> add_torque_mapping(const StageSite& site, const SensedPorts& given,
+OutputPort<DriveTorque> add_torque_mapping(const StageContext& site, const SensedPorts& given,
                                            const std::optional<LowPassSettings>& aligned_with) {
   auto& torque =
       site.builder.add<DriveTorqueMapping>(site.name, site.robot, site.settings.drive_torque, aligned_with);
@@ -23,7 +23,7 @@ OutputPort<DriveTorque> add_torque_mapping(const StageSite& site, const SensedPo
   return torque.torque;
 }
 
-DisturbanceFilter& add_filter(const StageSite& site, const MotionPorts& given,
+DisturbanceFilter& add_filter(const StageContext& site, const MotionPorts& given,
                               const DisturbanceFilterSettings& settings) {
   DiagramBuilder& builder = site.builder;
   auto& filter = builder.add<DisturbanceFilter>(site.name, site.robot, settings);
@@ -35,7 +35,7 @@ DisturbanceFilter& add_filter(const StageSite& site, const MotionPorts& given,
   return filter;
 }
 
-MotionModel& add_model(const StageSite& site, OutputPort<PlatformMotion> motion) {
+MotionModel& add_model(const StageContext& site, OutputPort<PlatformMotion> motion) {
   auto& model = site.builder.add<MotionModel>("model_low_latency", site.robot);
   site.builder.connect(motion, model.platform);
   return model;
@@ -43,13 +43,15 @@ MotionModel& add_model(const StageSite& site, OutputPort<PlatformMotion> motion)
 
 }  // namespace
 
-StageSite part(const StageSite& site, const std::string& what) { return named(site, site.name + "_" + what); }
+StageContext part(const StageContext& site, const std::string& what) {
+  return named(site, site.name + "_" + what);
+}
 
 std::optional<LowPassSettings> torque_low_pass(const ContactControlSettings& settings) {
   return settings.aligned_with_velocity ? std::optional(settings.velocity_filter.low_pass) : std::nullopt;
 }
 
-OutputPort<DriveTorque> add_drive_torque(const StageSite& site, const SensedPorts& given,
+OutputPort<DriveTorque> add_drive_torque(const StageContext& site, const SensedPorts& given,
                                          const std::optional<LowPassSettings>& aligned_with) {
   std::vector<SharedParts::Torque>& known = site.shared.torques;
   const auto found = std::find_if(known.begin(), known.end(), [&](const SharedParts::Torque& each) {
@@ -60,11 +62,11 @@ OutputPort<DriveTorque> add_drive_torque(const StageSite& site, const SensedPort
   return known.back().port;
 }
 
-OutputPort<DriveTorque> add_present_torque(const StageSite& site, const SensedPorts& given) {
+OutputPort<DriveTorque> add_present_torque(const StageContext& site, const SensedPorts& given) {
   return add_drive_torque(named(site, "present_torque"), given, std::nullopt);
 }
 
-DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given,
+DisturbanceFilter& add_encoder_filter(const StageContext& site, const MotionPorts& given,
                                       const DisturbanceFilterSettings& settings) {
   std::vector<SharedParts::Filter>& known = site.shared.filters;
   const auto found = std::find_if(known.begin(), known.end(),
@@ -74,7 +76,7 @@ DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& 
   return *known.back().filter;
 }
 
-LowLatencyPorts low_latency(const StageSite& site, const AcceleratedPorts& given) {
+LowLatencyPorts low_latency(const StageContext& site, const AcceleratedPorts& given) {
   const DisturbanceFilter& filter =
       add_encoder_filter(named(site, "motion_low_latency"), given, site.settings.disturbance_filter);
   LowLatencyPorts present{given, filter.wrench};

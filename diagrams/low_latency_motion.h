@@ -10,7 +10,7 @@
 namespace flinch {
 
 /// Where a further block of a stage is added, called as the stage and `what` it is.
-StageSite part(const StageSite& site, const std::string& what);
+StageContext part(const StageContext& site, const std::string& what);
 
 // Shared by the stages of a control path: each is added once, in the name of who asks first.
 
@@ -18,20 +18,20 @@ StageSite part(const StageSite& site, const std::string& what);
 std::optional<LowPassSettings> torque_low_pass(const ContactControlSettings& settings);
 
 /// The drive torque of the present or, where a low pass of the velocity is given, aligned with that.
-OutputPort<DriveTorque> add_drive_torque(const StageSite& site, const SensedPorts& given,
+OutputPort<DriveTorque> add_drive_torque(const StageContext& site, const SensedPorts& given,
                                          const std::optional<LowPassSettings>& aligned_with);
 
 /// That of the present, called "present_torque".
-OutputPort<DriveTorque> add_present_torque(const StageSite& site, const SensedPorts& given);
+OutputPort<DriveTorque> add_present_torque(const StageContext& site, const SensedPorts& given);
 
 /// A filter that follows motion and disturbance by that torque.
-DisturbanceFilter& add_encoder_filter(const StageSite& site, const MotionPorts& given,
+DisturbanceFilter& add_encoder_filter(const StageContext& site, const MotionPorts& given,
                                       const DisturbanceFilterSettings& settings);
 
 /// Ports with a motion whose velocity hardly lags, called "motion_low_latency", and the model there.
 struct LowLatencyPorts : AcceleratedPorts {
   OutputPort<WrenchEstimate> disturbance;  ///< that the filter has found which follows the motion
 };
-LowLatencyPorts low_latency(const StageSite& site, const AcceleratedPorts& given);
+LowLatencyPorts low_latency(const StageContext& site, const AcceleratedPorts& given);
 
 }  // namespace flinch

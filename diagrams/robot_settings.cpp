@@ -10,7 +10,7 @@ namespace {
 
 constexpr double stopping_time = 29e-3;  // time constant of the controlled stop [s]
 // D_qa and K_qa dt of [SafePR] (32e) over the inertia of a drive, which the paper does not print: 60 and 1
-// Nms/rad at the bench [1/s].
+// Nms/rad at the rig [1/s].
 constexpr double velocity_rate = 105.55;
 constexpr double feedforward_rate = velocity_rate / 60.0;
 // Natural frequencies of the nominal impedance [rad/s]. Encoders and currents are read too late for more;
@@ -83,7 +83,7 @@ PlausibilityLimits plausibility_for(const DriveParameters& drives, double inerti
   return limits;
 }
 
-/// Biases are learnt on the planar bench.
+/// Biases are learnt on the planar rig.
 void forget_planar_biases(TouchHypothesesSettings& settings) {
   for (double* const bias :
        {&settings.platform_bias, &settings.link1_bias, &settings.link2_bias, &settings.clamping_bias})

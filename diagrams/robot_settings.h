@@ -15,7 +15,7 @@ namespace flinch {
 ///   damping of the controlled stop: the least inertia that a drive feels at home, in 29 ms, [PAR]; after a
 ///   hard contact from a quarter of the largest speed on, less below;
 ///   gains of the velocity level: that inertia times 106 1/s, and times 1.76 1/s;
-///   stiffness of the nominal impedance: that of the bench, where the platform at home then has natural
+///   stiffness of the nominal impedance: that of the rig, where the platform at home then has natural
 ///   frequencies from 10 to 80 rad/s, else that of the nearer one;
 ///   constraints: constraints_for().
 /// `period`: from tick to tick, see know_period().

@@ -3,7 +3,7 @@
 #include "diagrams/contact_control_settings.h"
 #include "diagrams/low_latency_motion.h"
 #include "systems/framework/constant.h"
-#include "systems/laws/braking_watch.h"
+#include "systems/laws/braking_monitor.h"
 #include "systems/laws/gated_motion.h"
 #include "systems/laws/safety_filter.h"
 #include "systems/model/robot_model.h"
@@ -13,7 +13,7 @@ namespace flinch {
 namespace {
 
 /// A safety filter with a model of its own: it is evaluated in the ticks in which there is a motion.
-SafetyFilter& add_filter(const StageSite& site, OutputPort<PlatformMotion> motion,
+SafetyFilter& add_filter(const StageContext& site, OutputPort<PlatformMotion> motion,
                          OutputPort<WrenchEstimate> disturbance, OutputPort<TorqueCommand> requested) {
   DiagramBuilder& builder = site.builder;
   auto& model = builder.add<MotionModel>(site.name + "_model", site.robot);
@@ -27,11 +27,11 @@ SafetyFilter& add_filter(const StageSite& site, OutputPort<PlatformMotion> motio
   return safety_filter;
 }
 
-OutputPort<BrakingStatus> add_braking_watch(const StageSite& site, OutputPort<PlatformMotion> motion,
-                                            OutputPort<ReactionState> reaction) {
+OutputPort<BrakingStatus> add_braking_monitor(const StageContext& site, OutputPort<PlatformMotion> motion,
+                                              OutputPort<ReactionState> reaction) {
   const SafetyFilterSettings& kept = site.settings.limits;
-  auto& watch = site.builder.add<BrakingWatch>("braking", site.robot, kept.limits,
-                                               planned_torque_share * kept.max_torque);
+  auto& watch = site.builder.add<BrakingMonitor>("braking", site.robot, kept.limits,
+                                                 planned_torque_share * kept.max_torque);
   site.builder.connect(motion, watch.motion);
   site.builder.connect(reaction, watch.reaction);
   return watch.status;
@@ -39,7 +39,7 @@ OutputPort<BrakingStatus> add_braking_watch(const StageSite& site, OutputPort<Pl
 
 }  // namespace
 
-LimitedTorques add_safety_filter(const StageSite& site, const ReactionPorts& given,
+LimitedTorques add_safety_filter(const StageContext& site, const ReactionPorts& given,
                                  OutputPort<TorqueCommand> requested) {
   DiagramBuilder& builder = site.builder;
   if (site.settings.limits.use == SafetyFilterSettings::Use::never)
@@ -51,11 +51,11 @@ LimitedTorques add_safety_filter(const StageSite& site, const ReactionPorts& giv
   builder.connect(given.reaction, kept.reaction);
   SafetyFilter& safety_filter = add_filter(site, kept.kept, filter.wrench, requested);
   return {safety_filter.torque, safety_filter.status,
-          add_braking_watch(site, filter.followed, given.reaction), safety_filter.commanded,
+          add_braking_monitor(site, filter.followed, given.reaction), safety_filter.commanded,
           FollowedMotion{filter.followed, filter.wrench}};
 }
 
-OutputPort<TorqueCommand> add_kept_stop(const StageSite& site, const FollowedMotion& followed,
+OutputPort<TorqueCommand> add_kept_stop(const StageContext& site, const FollowedMotion& followed,
                                         const StopPorts& stop) {
   DiagramBuilder& builder = site.builder;
   auto& motion = builder.add<StoppingMotion>(site.name + "_motion");

@@ -34,7 +34,7 @@ struct LimitedTorques {
 /// follows motion and disturbance with hardly a lag, and the model there; and "braking", which judges whether
 /// the robot could stop within them. Where limits are never to be kept it adds nothing but statuses that say
 /// so.
-LimitedTorques add_safety_filter(const StageSite& site, const ReactionPorts& given,
+LimitedTorques add_safety_filter(const StageContext& site, const ReactionPorts& given,
                                  OutputPort<TorqueCommand> requested);
 
 /// What is known of a stop.
@@ -47,7 +47,7 @@ struct StopPorts {
 
 /// Adds a second one for the torques of the controlled stop. It keeps the same limits as long as no fault
 /// calls in doubt what that needs; otherwise the stop's torques are handed on as they are.
-OutputPort<TorqueCommand> add_kept_stop(const StageSite& site, const FollowedMotion& followed,
+OutputPort<TorqueCommand> add_kept_stop(const StageContext& site, const FollowedMotion& followed,
                                         const StopPorts& stop);
 
 }  // namespace flinch

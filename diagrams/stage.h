@@ -23,7 +23,7 @@ struct Named {
 };
 
 /// Where a stage is added.
-struct StageSite {
+struct StageContext {
   DiagramBuilder& builder;  ///< of the control path
   std::string name;         ///< of the stage, for its block; of further blocks: name + "_" + what they are
   std::shared_ptr<const ParallelRobot> robot;
@@ -38,7 +38,7 @@ struct StageSite {
 /// The function may throw SetupError. It is called once for every control path that is built.
 template <class Given, class Offered>
 struct Stage {
-  using Add = std::function<Offered(const StageSite& site, const Given& given)>;
+  using Add = std::function<Offered(const StageContext& site, const Given& given)>;
 
   std::string name;  ///< letters, digits and '_'
   Add add;

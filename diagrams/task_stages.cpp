@@ -6,7 +6,7 @@
 #include "diagrams/safety_filtering.h"
 #include "systems/laws/task_controller.h"
 #include "systems/laws/task_energy.h"
-#include "systems/motion/constraint_watch.h"
+#include "systems/motion/constraint_monitor.h"
 #include "systems/motion/pose_goals.h"
 #include "systems/motion/reaction_task.h"
 
@@ -19,11 +19,11 @@ struct LedTasks {
   OutputPort<PlatformReference> reference;
 };
 
-LawPorts add_controller(const StageSite& site, TaskLevel level, const ConstraintSettings& constraints,
-                        ConstraintWatch::Role role, const ReactionPorts& given, const LedTasks& led) {
+LawPorts add_controller(const StageContext& site, TaskLevel level, const ConstraintSettings& constraints,
+                        ConstraintMonitor::Role role, const ReactionPorts& given, const LedTasks& led) {
   DiagramBuilder& builder = site.builder;
   const TaskSettings& settings = site.settings.tasks;
-  auto& watch = builder.add<ConstraintWatch>(site.name + "_constraints", site.robot, constraints, role);
+  auto& watch = builder.add<ConstraintMonitor>(site.name + "_constraints", site.robot, constraints, role);
   builder.connect(given.reaction, watch.reaction);
   builder.connect(given.kinematics, watch.kinematics);
 
@@ -37,7 +37,7 @@ LawPorts add_controller(const StageSite& site, TaskLevel level, const Constraint
   builder.connect(given.dynamics, controller.dynamics);
   LawPorts law{.torque = controller.torque, .reference = led.reference, .constraints = watch.constraints};
   if (level != TaskLevel::torque) return law;
-  auto& energy = builder.add<TaskEnergyWatch>(site.name + "_energies");
+  auto& energy = builder.add<TaskEnergyMonitor>(site.name + "_energies");
   builder.connect(led.goals, energy.tasks);
   builder.connect(watch.goals, energy.constraint_goals);
   builder.connect(watch.constraints, energy.constraints);
@@ -47,15 +47,15 @@ LawPorts add_controller(const StageSite& site, TaskLevel level, const Constraint
   return law;
 }
 
-LawPorts add_tracking(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
+LawPorts add_tracking(const StageContext& site, TaskLevel level, const ReactionPorts& given) {
   auto& goals = site.builder.add<PoseGoals>(site.name + "_goals", site.robot, site.settings.tasks.nominal);
   site.builder.connect(given.nominal, goals.reference);
   site.builder.connect(given.kinematics, goals.kinematics);
-  return add_controller(site, level, site.settings.tasks.constraints, ConstraintWatch::Role::nominal, given,
+  return add_controller(site, level, site.settings.tasks.constraints, ConstraintMonitor::Role::nominal, given,
                         {goals.goals, given.nominal});
 }
 
-LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const ConstraintSettings& constraints,
+LawPorts add_reaction_with(const StageContext& site, TaskLevel level, const ConstraintSettings& constraints,
                            const ReactionTaskSettings& reaction, const ReactionPorts& given) {
   DiagramBuilder& builder = site.builder;
   auto& task =
@@ -66,20 +66,20 @@ LawPorts add_reaction_with(const StageSite& site, TaskLevel level, const Constra
   builder.connect(given.isolation_wrench, task.estimate);
   builder.connect(given.classification, task.classification);
   builder.connect(given.location, task.location);
-  LawPorts law = add_controller(site, level, constraints, ConstraintWatch::Role::reacting, given,
+  LawPorts law = add_controller(site, level, constraints, ConstraintMonitor::Role::reacting, given,
                                 {task.goals, task.reference});
   law.task = task.followed_task;
   return law;
 }
 
-LawPorts add_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
+LawPorts add_reaction(const StageContext& site, TaskLevel level, const ReactionPorts& given) {
   const TaskSettings& settings = site.settings.tasks;
   return add_reaction_with(site, level, settings.constraints, settings.reaction, given);
 }
 
 /// The safety filter holds the constraints: none becomes a task, and motions may take what the drives have,
 /// from the first tick on.
-LawPorts add_strict_reaction(const StageSite& site, TaskLevel level, const ReactionPorts& given) {
+LawPorts add_strict_reaction(const StageContext& site, TaskLevel level, const ReactionPorts& given) {
   ConstraintSettings watched = site.settings.tasks.constraints;
   watched.kept = ConstraintsKept::never;
   ReactionTaskSettings reaction = site.settings.tasks.reaction;
@@ -100,7 +100,7 @@ double platform_speed_at_home(const ParallelRobot& robot, double drive_speed) {
 template <auto add>
 ControlLaw law(const char* name, TaskLevel level) {
   return {name,
-          [level](const StageSite& site, const ReactionPorts& given) { return add(site, level, given); }};
+          [level](const StageContext& site, const ReactionPorts& given) { return add(site, level, given); }};
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ std::vector<ControlLaw> task_reaction_stages() {
 void keep_constraints_strictly(const ParallelRobot& robot, ContactControlSettings& settings) {
   constexpr double speed_share = 0.58;
   const ConstraintSettings& constraints = settings.tasks.constraints;
-  PlaceLimits& limits = settings.limits.limits;
+  PoseConstraints& limits = settings.limits.limits;
   settings.limits.use = SafetyFilterSettings::Use::always;
   limits.max_condition_number = std::min(limits.max_condition_number, constraints.sigma_kappa.safety);
   limits.workspace.min_self_collision_distance =

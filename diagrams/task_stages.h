@@ -20,7 +20,7 @@ std::vector<ControlLaw> task_reaction_stages();
 /// What "strict_reaction" needs: the safety filter holds the safety values of the tasks' constraints, in the
 /// nominal motion too, and a speed of the platform from which the drives can brake in time: 0.58 of that at
 /// which, at the home pose, whichever drive gets there first is at its largest speed (2.1 m/s on the planar
-/// bench, found by trial). No limit that is there is loosened.
+/// rig, found by trial). No limit that is there is loosened.
 void keep_constraints_strictly(const ParallelRobot& robot, ContactControlSettings& settings);
 
 }  // namespace flinch

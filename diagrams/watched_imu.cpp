@@ -4,7 +4,7 @@
 
 namespace flinch {
 
-WatchedImu add_watched_imu(const StageSite& site) {
+WatchedImu add_watched_imu(const StageContext& site) {
   PlausibilityLimits limits = site.settings.plausibility;
   limits.imu_mount = site.settings.imu_mount;
   limits.stamp_spread = site.settings.imu_stamp_spread;

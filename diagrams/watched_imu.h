@@ -12,6 +12,6 @@ struct WatchedImu {
 };
 
 /// Adds the plausibility monitor, which reads nothing yet, and an input "imu" that may be left open.
-WatchedImu add_watched_imu(const StageSite& site);
+WatchedImu add_watched_imu(const StageContext& site);
 
 }  // namespace flinch

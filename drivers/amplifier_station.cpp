@@ -1,6 +1,6 @@
 #include "drivers/amplifier_station.h"
 
-#include "drivers/drive_master.h"
+#include "drivers/drive_manager.h"
 #include "drivers/power_stage.h"
 
 namespace flinch {
@@ -8,7 +8,7 @@ namespace flinch {
 AmplifierStation add_amplifier_station(DiagramBuilder& builder, const ExternalStation& fieldbus) {
   DiagramBuilder inside("power");
   auto& group = inside.add<DriveGroup>("group");
-  auto& master = inside.add<DriveMaster>("master");
+  auto& master = inside.add<DriveManager>("master");
   auto& stage = inside.add<PowerStage>("stage");
   inside.connect(group.statusword, master.statusword);
   inside.connect(group.statusword, stage.statusword);

@@ -16,7 +16,7 @@ struct AmplifierStation : PoweredStation {
 
 /// Adds what stands between the bus and the amplifiers behind `fieldbus`, as one nested diagram, "power":
 ///
-///   statuswords -> DriveGroup, with wish -> DriveMaster -> controlword
+///   statuswords -> DriveGroup, with wish -> DriveManager -> controlword
 ///   torque and brake from the bus -> PowerStage -> torque_command and brake of `fieldbus`
 ///
 /// Torque passes only while all amplifiers are in operation; in every other state there is none, and the

@@ -16,7 +16,7 @@ namespace flinch {
 struct DdsServerSettings {
   /// The robot_hash() of the robot description: that of the other end, or nothing passes.
   std::uint32_t robot = 0;
-  /// Without a newer command: the brakes close, and who commanded must begin anew. With the bench's tick and
+  /// Without a newer command: the brakes close, and who commanded must begin anew. With the rig's tick and
   /// the 10 ms in which the brakes must be commanded to close this leaves room for a busy machine.
   Time longest_silence = 6ms;
   /// The same for ticks of `period`: of long ones, one command may be missing.

@@ -1,16 +1,16 @@
 #include "drivers/powered_station.h"
 
-#include "drivers/drive_master.h"
-#include "drivers/drive_watch.h"
+#include "drivers/drive_manager.h"
+#include "drivers/drive_monitor.h"
 #include "drivers/power_stage.h"
 
 namespace flinch {
 
 PoweredStation add_powered_station(DiagramBuilder& builder, const Station& bare) {
   DiagramBuilder inside("power");
-  auto& master = inside.add<DriveMaster>("master");
+  auto& master = inside.add<DriveManager>("master");
   auto& machine = inside.add<DriveStateMachine>("state_machine");
-  auto& watch = inside.add<DriveWatch>("watch");
+  auto& watch = inside.add<DriveMonitor>("watch");
   auto& stage = inside.add<PowerStage>("stage");
   inside.connect(machine.statusword, master.statusword);
   inside.connect(master.controlword, machine.controlword);

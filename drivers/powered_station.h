@@ -15,7 +15,7 @@ struct PoweredStation : Station {
 
 /// Adds the state machine of a drive in front of `bare`, as one nested diagram, "power":
 ///
-///   wish -> DriveMaster -> DriveStateMachine -> PowerStage -> torque and brakes of the bare station
+///   wish -> DriveManager -> DriveStateMachine -> PowerStage -> torque and brakes of the bare station
 ///
 /// For drives that are nothing but simulated; real servo amplifiers have state machines of their own, see
 /// add_amplifier_station().

@@ -15,9 +15,9 @@
 #include "identification/constant_torques.h"
 #include "identification/dynamics_fit.h"
 #include "identification/dynamics_rows.h"
-#include "identification/encoder_doubts.h"
-#include "identification/left_torque_doubts.h"
-#include "identification/motion_doubts.h"
+#include "identification/encoder_warnings.h"
+#include "identification/left_torque_warnings.h"
+#include "identification/motion_warnings.h"
 #include "identification/motor_parameters.h"
 #include "identification/physical_parameters.h"
 #include "identification/root_mean_square.h"
@@ -375,8 +375,8 @@ std::vector<std::string> files_of(const std::vector<MotionRecording>& recordings
 void doubt_left_torque(const DynamicsRows& rows, const Eigen::VectorXd& left,
                        const std::vector<MotionRecording>& recordings, CalibrationResult& result) {
   const std::vector<std::string> files = files_of(recordings);
-  for (const std::string& doubt : doubts_about_contacts(rows, left, files, result.residual_unit))
-    result.doubts.push_back(doubt);
+  for (const std::string& doubt : warnings_about_contacts(rows, left, files, result.residual_unit))
+    result.contradictions.push_back(doubt);
   for (const std::string& warning : warnings_about_drift(rows, left, files, result.residual_unit))
     result.warnings.push_back(warning);
 }
@@ -395,8 +395,8 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
   const auto of_robot = DynamicParameters::of(*belief.robot);
   DynamicsRows rows = rows_of(belief, *of_robot, recordings, result.warnings);
   check(belief, rows, result.residual_unit.c_str(), result.warnings);
-  result.doubts = doubts_about_motion(rows, belief.robot->drives());
-  add_encoder_doubts(recordings, *belief.robot, result.doubts);
+  result.contradictions = warnings_about_motion(rows, belief.robot->drives());
+  add_encoder_warnings(recordings, *belief.robot, result.contradictions);
   for (const MotionRecording& recording : recordings) {
     for (const std::string& warning : warnings_about_turns(*recording.recording, *belief.robot))
       result.warnings.push_back(recording.source.file + ": " + warning);
@@ -422,8 +422,8 @@ CalibrationResult calibrate_dynamics(const DynamicsBelief& belief,
     result.notes.push_back(note);
   doubt(rows, solution, after, result);
   doubt_left_torque(rows, after, recordings, result);
-  if (result.doubts.empty())
-    result.doubts = doubts_about_values(parameters, solution.fit.values, solution.held);
+  if (result.contradictions.empty())
+    result.contradictions = warnings_about_values(parameters, solution.fit.values, solution.held);
   for (const int drive : parameters.stilled()) {
     result.warnings.push_back(fmt::format(
         "drive {} was believed to cog, and this motion does not show it, so it is taken back; where "

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/encoder_doubts.h"
-#include "identification/imu_doubts.h"
+#include "identification/encoder_warnings.h"
 #include "identification/imu_pose_fit.h"
+#include "identification/imu_warnings.h"
 #include "identification/stamp_spread_fit.h"
 #include "systems/foundation/setup_error.h"
 
@@ -249,8 +249,8 @@ CalibrationResult calibrate_imu_pose(const ParallelRobot& robot, const ImuMount&
   result.residual_before = normalised_residual(old_residuals);
   result.residual_after = normalised_residual(residuals);
   tell_agreement(old_residuals, residuals, result);
-  result.doubts = doubts_about_imu(stretches, belief, fit);
-  add_encoder_doubts(recordings, robot, result.doubts);
+  result.contradictions = warnings_about_imu(stretches, belief, fit);
+  add_encoder_warnings(recordings, robot, result.contradictions);
   add_plots(old_residuals, residuals, result);
   if (!result.parameters[0].identifiable && !result.parameters[1].identifiable) {
     result.warnings.push_back(

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "identification/encoder_doubts.h"
-#include "identification/pull_doubts.h"
+#include "identification/encoder_warnings.h"
+#include "identification/pull_warnings.h"
 #include "identification/pull_windows.h"
 #include "identification/robust_mean.h"
 #include "identification/root_mean_square.h"
@@ -337,8 +337,8 @@ CalibrationResult calibrate_torque_constants(const TorqueConstantBelief& belief,
   const Pulls pulls = pulls_of(belief, recordings);
   check(pulls, belief, result.residual_unit.c_str());
   result.warnings = pulls.warnings;
-  result.doubts = doubts_about_pulls(pulls.windows, belief.constant);
-  add_encoder_doubts(recordings, *belief.robot, result.doubts);
+  result.contradictions = warnings_about_pulls(pulls.windows, belief.constant);
+  add_encoder_warnings(recordings, *belief.robot, result.contradictions);
 
   const TorqueConstantModel model = model_for(pulls, belief);
   const TorqueConstantFit fit = fit_torque_constants(pulls.windows, pulls.mountings, belief.constant, model);

@@ -35,7 +35,7 @@ SignalSummary signal_summary(const MappedLog& log, const std::string& name) {
 }
 
 /// Whether the robot can stand as the log says, and why not.
-std::vector<std::string> doubts_about_poses(const MappedLog& log) {
+std::vector<std::string> warnings_about_poses(const MappedLog& log) {
   constexpr std::size_t most_rows = 1000;
   const ParallelRobot& robot = *log.mapping().scenario.robot.robot;
   MappedLog::Cursor cursor(log, "joints.active", robot.drives());
@@ -74,7 +74,7 @@ ImportSummary summary_of(const MappedLog& log) {
                                  std::to_string(std::lround(100.0 * signal.valid_fraction)) +
                                  " % of the samples only");
   }
-  for (const std::string& doubt : doubts_about_poses(log)) summary.warnings.push_back(doubt);
+  for (const std::string& doubt : warnings_about_poses(log)) summary.warnings.push_back(doubt);
   return summary;
 }
 

@@ -21,7 +21,7 @@ constexpr std::size_t first_columns = 7;
 
 std::size_t columns_of(const ParallelRobot& robot) {
   return first_columns + static_cast<std::size_t>(robot.home_pose().size()) +
-         2 * course_ages.size() * static_cast<std::size_t>(robot.dof());
+         2 * history_ages.size() * static_cast<std::size_t>(robot.dof());
 }
 
 std::string column_names(const ParallelRobot& robot) {
@@ -30,7 +30,7 @@ std::string column_names(const ParallelRobot& robot) {
     for (Eigen::Index i = 0; i < count; ++i) names += fmt::format(" {}_{}", name, i + 1);
   };
   add("pose", robot.home_pose().size());
-  for (const Time age : course_ages) {
+  for (const Time age : history_ages) {
     add(fmt::format("wrench_{}ms", age / 1ms), robot.dof());
     add(fmt::format("velocity_{}ms", age / 1ms), robot.dof());
   }
@@ -48,7 +48,7 @@ void append(const DataSample& sample, std::vector<internal::Number>& row) {
   for (const double value : {sample.since_onset, sample.since_early, sample.force})
     row.push_back({.real = value});
   append(sample.pose, row);
-  for (const CourseMoment& moment : sample.course) {
+  for (const ContactMoment& moment : sample.course) {
     append(moment.wrench_in_base, row);
     append(moment.velocity, row);
   }
@@ -96,7 +96,7 @@ DataSample sample_of(const internal::Number* row, std::size_t number, const Para
   sample.since_early = reader.real();
   sample.force = reader.real();
   reader.vector(robot.home_pose().size(), sample.pose);
-  for (CourseMoment& moment : sample.course) {
+  for (ContactMoment& moment : sample.course) {
     reader.vector(robot.dof(), moment.wrench_in_base);
     reader.vector(robot.dof(), moment.velocity);
   }

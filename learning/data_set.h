@@ -10,7 +10,7 @@
 #include "systems/robot/parallel_robot.h"
 #include "systems/robot/vectors.h"
 #include "systems/signals/contact_classes.h"
-#include "systems/signals/contact_course.h"
+#include "systems/signals/contact_window.h"
 
 namespace flinch {
 
@@ -31,7 +31,7 @@ struct DataSample {
   double since_early = 0.0;  ///< since Moment::early [s]
   double force = 0.0;        ///< the truth, of the strongest touch [N]
   Configuration pose;        ///< as the encoders tell it
-  CourseMoments course;      ///< what was estimated, and how the platform moved
+  ContactMoments course;     ///< what was estimated, and how the platform moved
 
   const PlatformVector& wrench_in_base() const { return course.front().wrench_in_base; }
   const PlatformVector& velocity() const { return course.front().velocity; }

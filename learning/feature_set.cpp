@@ -7,7 +7,7 @@
 #include <map>
 #include <thread>
 
-#include "systems/contact/course_memory.h"
+#include "systems/contact/contact_window_buffer.h"
 #include "systems/contact/evidence_features.h"
 #include "systems/contact/feature_extraction.h"
 #include "systems/foundation/nearest_name.h"
@@ -82,7 +82,7 @@ bool FeatureSet::inputs(const DataSample& sample, NeuralNetwork::Values& columns
     };
     weigh(wrench, whole);
     weigh(growth_of(sample.course), growth);
-    const auto courses = leg_courses(*robot_, now, sample.course);
+    const auto courses = leg_histories(*robot_, now, sample.course);
     if (!whole.valid || !growth.valid || !courses) return false;
     const double force = wrench.head(space.translations()).norm();
     evidence_features(touchable_, {whole, growth, *courses, force}, columns);

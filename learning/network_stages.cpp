@@ -102,7 +102,7 @@ struct AskedNetwork {
   std::filesystem::path shipped;  ///< what comes with flinch
 };
 
-ReadModel model_of(const StageSite& site, const AskedNetwork& asked) {
+ReadModel model_of(const StageContext& site, const AskedNetwork& asked) {
   const bool is_own = !asked.own.empty();
   const std::string place = is_own ? "control.isolation." + asked.key : asked.shipped.string();
   return out_of(place, [&] {
@@ -116,7 +116,7 @@ ReadModel model_of(const StageSite& site, const AskedNetwork& asked) {
   });
 }
 
-OutputPort<ContactClassification> add_papers_networks(const StageSite& site, const ContactPorts& given,
+OutputPort<ContactClassification> add_papers_networks(const StageContext& site, const ContactPorts& given,
                                                       const std::filesystem::path& shipped) {
   const PapersNetworkFiles& files = site.settings.isolation.papers_networks;
   const auto network = [&](Question question, const std::filesystem::path& own) {
@@ -131,7 +131,7 @@ OutputPort<ContactClassification> add_papers_networks(const StageSite& site, con
       .add(site, given);
 }
 
-OutputPort<ContactClassification> add_learned_classifier(const StageSite& site, const ContactPorts& given,
+OutputPort<ContactClassification> add_learned_classifier(const StageContext& site, const ContactPorts& given,
                                                          const std::filesystem::path& shipped) {
   const IsolationSettings& settings = site.settings.isolation;
   const ReadModel read = model_of(site, {Question::touched, "learned_classifier.network",
@@ -143,7 +143,7 @@ OutputPort<ContactClassification> add_learned_classifier(const StageSite& site, 
 
 std::vector<ContactClassifier> network_stages(const std::filesystem::path& shipped) {
   const auto from = [&shipped](auto add) {
-    return [add, shipped](const StageSite& site, const ContactPorts& given) {
+    return [add, shipped](const StageContext& site, const ContactPorts& given) {
       return add(site, given, shipped);
     };
   };

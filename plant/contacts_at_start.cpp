@@ -2,18 +2,18 @@
 
 #include <sstream>
 
-#include "plant/bench_dynamics.h"
+#include "plant/rig_dynamics.h"
 
 namespace flinch {
 
-std::vector<ContactAtStart> contacts_at_start(const BenchSettings& settings) {
-  const std::unique_ptr<const BenchDynamics> bench = BenchDynamics::make(settings);
-  const Mechanism& robot = bench->robot();
-  BenchSnapshot start;
+std::vector<ContactAtStart> contacts_at_start(const RigSettings& settings) {
+  const std::unique_ptr<const RigDynamics> rig = RigDynamics::make(settings);
+  const Mechanism& robot = rig->robot();
+  RigSnapshot start;
   DriveAction resting;
   resting.torque.setZero(robot.drives());
-  bench->snapshot(bench->initial_state(), resting, PlatformVector::Zero(robot.dof()), bench->initial_step(),
-                  0.0, start);
+  rig->snapshot(rig->initial_state(), resting, PlatformVector::Zero(robot.dof()), rig->initial_step(), 0.0,
+                start);
   std::vector<ContactAtStart> found;
   for (int i = 0; i < start.contacts.touch_count; ++i) {
     const Touch& touch = start.contacts.touches[static_cast<std::size_t>(i)];

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "plant/bench_settings.h"
+#include "plant/rig_settings.h"
 
 namespace flinch {
 
@@ -15,6 +15,6 @@ struct ContactAtStart {
 };
 
 /// All of them. `settings` must be without problems.
-std::vector<ContactAtStart> contacts_at_start(const BenchSettings& settings);
+std::vector<ContactAtStart> contacts_at_start(const RigSettings& settings);
 
 }  // namespace flinch

@@ -41,8 +41,9 @@ class Draw {
     drawn.array() += 1.0;
     return drawn;
   }
-  std::vector<PositionWave> waves(const std::string& quantity, double size, double rate, int count) const {
-    std::vector<PositionWave> drawn;
+  std::vector<PositionHarmonic> waves(const std::string& quantity, double size, double rate,
+                                      int count) const {
+    std::vector<PositionHarmonic> drawn;
     if (!(size > 0.0)) return drawn;
     const JointVector amplitude = up_to(quantity, size, count);
     const JointVector phase = between(quantity + " phase", 0.0, turn, count);
@@ -102,10 +103,10 @@ class Told {
   void add(const std::string& key, const std::vector<double>& values) {
     if (!values.empty()) values_.emplace_back(key, values);
   }
-  void add(const std::string& key, const std::string& unit, const std::vector<PositionWave>& waves) {
+  void add(const std::string& key, const std::string& unit, const std::vector<PositionHarmonic>& waves) {
     std::vector<double> amplitudes, phases;
     bool any = false;
-    for (const PositionWave& wave : waves) {
+    for (const PositionHarmonic& wave : waves) {
       amplitudes.push_back(wave.amplitude);
       phases.push_back(wave.phase);
       any = any || wave.amplitude != 0.0;
@@ -120,15 +121,15 @@ class Told {
   Values values_;
 };
 
-std::vector<PositionWave> ripple_of(const std::vector<TorqueRipple>& torques) {
-  std::vector<PositionWave> waves;
+std::vector<PositionHarmonic> ripple_of(const std::vector<TorqueRipple>& torques) {
+  std::vector<PositionHarmonic> waves;
   for (const TorqueRipple& torque : torques) waves.push_back(torque.ripple);
   return waves;
 }
 
 /// The k-th wave of each drive; empty: no drive has so many.
-std::vector<PositionWave> cogging_of(const std::vector<TorqueRipple>& torques, std::size_t k) {
-  std::vector<PositionWave> waves;
+std::vector<PositionHarmonic> cogging_of(const std::vector<TorqueRipple>& torques, std::size_t k) {
+  std::vector<PositionHarmonic> waves;
   for (const TorqueRipple& torque : torques)
     if (k < torque.cogging.size()) waves.push_back(torque.cogging[k]);
   return waves;
@@ -159,16 +160,16 @@ PerturbedRobot draw_perturbed_robot(const Realism& realism, const ParallelRobot&
 SimulatedStationSettings with_perturbed_robot(SimulatedStationSettings model,
                                               const PerturbedRobot& perturbed_robot) {
   SimulatedDrivesSettings& drives = model.drives;
-  model.bench.robot = true_robot(model.bench.robot, perturbed_robot.mechanics);
-  model.bench.sticking.stiffness = perturbed_robot.friction_stiffness;
-  model.bench.elastic = perturbed_robot.elastic;
+  model.rig.robot = true_robot(model.rig.robot, perturbed_robot.mechanics);
+  model.rig.sticking.stiffness = perturbed_robot.friction_stiffness;
+  model.rig.elastic = perturbed_robot.elastic;
   const std::vector<TorqueRipple> known =
-      std::exchange(model.bench.torque_ripple, perturbed_robot.torque_ripple);
-  model.bench.torque_ripple.resize(std::max(known.size(), perturbed_robot.torque_ripple.size()));
-  for (std::size_t i = 0; i < known.size(); ++i) model.bench.torque_ripple[i].cogging = known[i].cogging;
+      std::exchange(model.rig.torque_ripple, perturbed_robot.torque_ripple);
+  model.rig.torque_ripple.resize(std::max(known.size(), perturbed_robot.torque_ripple.size()));
+  for (std::size_t i = 0; i < known.size(); ++i) model.rig.torque_ripple[i].cogging = known[i].cogging;
   if (drives.torque_delay.size() == 0) drives.current_lag = perturbed_robot.current_lag;
   if (perturbed_robot.torque_constant_scale.size() > 0) {
-    drives = complete(drives, *model.bench.robot);
+    drives = complete(drives, *model.rig.robot);
     drives.torque_constant = drives.torque_constant.cwiseProduct(perturbed_robot.torque_constant_scale);
   }
   model.encoders.active.wave = perturbed_robot.active_encoder_wave;

@@ -23,8 +23,8 @@ struct PerturbedRobot {
   JointVector torque_constant_scale;        ///< Of each motor.
   JointVector current_lag;                  ///< Of each drive, time constant [s].
   std::vector<TorqueRipple> torque_ripple;  ///< Of each drive.
-  std::vector<PositionWave> active_encoder_wave;
-  std::vector<PositionWave> passive_encoder_wave;
+  std::vector<PositionHarmonic> active_encoder_wave;
+  std::vector<PositionHarmonic> passive_encoder_wave;
   JointVector passive_encoder_offset;  ///< [rad]
 };
 

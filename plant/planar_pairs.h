@@ -8,7 +8,7 @@ namespace flinch {
 
 /// A disc and the bodies of a planar 3-RRR that it may touch. Links meet where a joint of one leg, a disc as
 /// thick as its links, meets a link of another. Left out are neighbours along a leg, which always overlap,
-/// and the platform with second links, which are joined to it. GeneralBench goes by the robot's description,
+/// and the platform with second links, which are joined to it. GeneralRig goes by the robot's description,
 /// which pairs links of different legs only: neither the platform with first links nor a leg that folds up.
 struct PlanarPair {
   enum class Round : std::uint8_t { obstacle, platform, base_joint, passive_joint, coupling_joint };

@@ -5,7 +5,7 @@
 namespace flinch {
 
 /// What repeats along the position q of a joint: amplitude * sin(rate * q + phase).
-struct PositionWave {
+struct PositionHarmonic {
   double amplitude = 0.0;
   double rate = 0.0;   ///< Of the phase along the position [rad/rad], of a joint that slides [rad/m].
   double phase = 0.0;  ///< At position zero [rad].

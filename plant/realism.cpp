@@ -6,7 +6,7 @@
 
 namespace flinch {
 
-Realism bench_realism(DriveKind drives) {
+Realism rig_realism(DriveKind drives) {
   Realism realism = kind_realism(drives);
   realism.friction_stiffness = drives == DriveKind::revolute ? 4e4 : 5e6;
   realism.cogging_harmonics = 4;

@@ -41,8 +41,8 @@ struct Realism {
   double passive_encoder_offset = 0.0;  ///< Constant error, either way [rad].
 };
 
-/// Sizes as of a bench that was built and calibrated with care; docs/theory.md has their sources.
-Realism bench_realism(DriveKind drives);
+/// Sizes as of a rig that was built and calibrated with care; docs/theory.md has their sources.
+Realism rig_realism(DriveKind drives);
 
 /// The same with friction as models have it, which creeps.
 Realism kind_realism(DriveKind drives);

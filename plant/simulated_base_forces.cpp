@@ -22,22 +22,22 @@ SimulatedBaseForces::SimulatedBaseForces(const SimulatedBaseForcesSettings& sett
       robot_(std::move(robot)),
       noise_(state<Noise>("noise", Noise(required(settings).size(), derive_seed(seed, "noise")))) {}
 
-void SimulatedBaseForces::measure(Time now, const BenchSnapshot& bench, const Noise& noise,
+void SimulatedBaseForces::measure(Time now, const RigSnapshot& rig, const Noise& noise,
                                   BaseForceReading& reading) const {
   reading = BaseForceReading();
   reading.acquired = now;
   Kinematics at;
-  if (bench.reachable) robot_->kinematics(bench.pose, bench.velocity, at);
+  if (rig.reachable) robot_->kinematics(rig.pose, rig.velocity, at);
   if (!at.reachable) return;
   std::array<ForceOnBody, max_touches> touches;
-  const int count = bench.contacts.touch_count;
+  const int count = rig.contacts.touch_count;
   for (int i = 0; i < count; ++i) {
     const auto index = static_cast<std::size_t>(i);
-    const Touch& touch = bench.contacts.touches[index];
+    const Touch& touch = rig.contacts.touches[index];
     const int directions = settings_.bases->directions();
     touches[index] = {touch.body, touch.point.head(directions), touch.force_on_robot.head(directions)};
   }
-  settings_.bases->forces(at, bench.acceleration, bench.torque_on_legs,
+  settings_.bases->forces(at, rig.acceleration, rig.torque_on_legs,
                           {touches.data(), static_cast<std::size_t>(count)}, reading.force_in_base);
   reading.valid = true;
   if (!settings_.ideal) reading.force_in_base += settings_.noise * noise.values();

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "plant/bench_dynamics.h"
+#include "plant/rig_dynamics.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
 #include "systems/robot/leg_bases.h"
@@ -33,14 +33,14 @@ class SimulatedBaseForces final : public System {
   State<Noise> noise_;
 
  public:
-  InputPort<BenchSnapshot> snapshot = input<BenchSnapshot>("snapshot");
+  InputPort<RigSnapshot> snapshot = input<RigSnapshot>("snapshot");
   OutputPort<BaseForceReading> forces =
       output<&SimulatedBaseForces::measure>("forces", clock, snapshot, noise_);
 
  private:
   Update draw_ = update<&SimulatedBaseForces::draw>(noise_);
 
-  void measure(Time now, const BenchSnapshot& bench, const Noise& noise, BaseForceReading& reading) const;
+  void measure(Time now, const RigSnapshot& rig, const Noise& noise, BaseForceReading& reading) const;
   void draw(Noise& noise) const { noise.draw(); }
 };
 

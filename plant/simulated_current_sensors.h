@@ -12,7 +12,7 @@ namespace flinch {
 /// How far the measured motor currents are off the truth.
 struct SimulatedCurrentSensorsSettings {
   bool ideal = false;       ///< Readings are the truth.
-  double noise = 0.02;      ///< Standard deviation of white noise [A]; assumed: 0.1 Nm at the bench's 6 Nm/A.
+  double noise = 0.02;      ///< Standard deviation of white noise [A]; assumed: 0.1 Nm at the rig's 6 Nm/A.
   double resolution = 0.0;  ///< Readings are multiples of it [A]; zero: continuous.
 };
 

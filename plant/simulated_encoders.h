@@ -20,13 +20,13 @@ struct EncoderErrors {
   double resolution = 0.0;  ///< Readings are multiples of it.
   JointVector offset{};     ///< A constant error of each encoder, besides `accuracy`; empty: none.
   /// An error of each encoder that depends on the position, as of a disc that is not centred; empty: none.
-  std::vector<PositionWave> wave{};
+  std::vector<PositionHarmonic> wave{};
 };
 
 /// The encoders of drives that slide, scales with numbers of their own: noise and resolution are assumed [m].
 inline EncoderErrors sliding_encoders() { return {.noise = 7e-6, .resolution = 0.2e-6}; }
 
-/// The encoders of the bench.
+/// The encoders of the rig.
 struct SimulatedEncodersSettings {
   bool ideal = false;           ///< Readings are the truth.
   bool passive_mounted = true;  ///< Otherwise passive angles are not valid.

@@ -40,16 +40,16 @@ SimulatedForceTorqueSensor::SimulatedForceTorqueSensor(const SimulatedForceTorqu
   throw_if_any(problems(settings));
 }
 
-void SimulatedForceTorqueSensor::measure(Time now, const BenchSnapshot& bench, const NormalNumbers<6>& noise,
+void SimulatedForceTorqueSensor::measure(Time now, const RigSnapshot& rig, const NormalNumbers<6>& noise,
                                          ForceTorqueReading& reading) const {
   reading = ForceTorqueReading();
   reading.acquired = now;
-  reading.valid = bench.reachable && settings_.obstacle < bench.obstacle_count;
+  reading.valid = rig.reachable && settings_.obstacle < rig.obstacle_count;
   if (!reading.valid) return;
-  const Eigen::Vector3d force = -bench.force_on_mount[static_cast<std::size_t>(settings_.obstacle)];
+  const Eigen::Vector3d force = -rig.force_on_mount[static_cast<std::size_t>(settings_.obstacle)];
   reading.force_in_base = force;
   reading.moment_in_base = settings_.depth * Eigen::Vector3d::UnitZ().cross(force) +
-                           moment_about(position_in_base_, settings_.obstacle, bench.contacts);
+                           moment_about(position_in_base_, settings_.obstacle, rig.contacts);
   if (settings_.ideal) return;
   reading.force_in_base += settings_.force_noise * noise.values().head<3>();
   reading.moment_in_base += settings_.moment_noise * noise.values().tail<3>();

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "plant/bench_dynamics.h"
 #include "plant/delay_line.h"
+#include "plant/rig_dynamics.h"
 #include "plant/sensor_noise.h"
 #include "systems/framework/system.h"
 #include "systems/signals/force_torque_reading.h"
@@ -41,7 +41,7 @@ class SimulatedForceTorqueSensor final : public System {
   State<DelayLine<ForceTorqueReading>> underway_ = state<DelayLine<ForceTorqueReading>>("underway");
 
  public:
-  InputPort<BenchSnapshot> snapshot = input<BenchSnapshot>("snapshot");
+  InputPort<RigSnapshot> snapshot = input<RigSnapshot>("snapshot");
 
  private:
   Intermediate<ForceTorqueReading> measured_ =
@@ -55,7 +55,7 @@ class SimulatedForceTorqueSensor final : public System {
   Update draw_ = update<&SimulatedForceTorqueSensor::draw>(noise_);
   Update send_ = update<&SimulatedForceTorqueSensor::send>(Every{settings_.period}, underway_, measured_);
 
-  void measure(Time now, const BenchSnapshot& bench, const NormalNumbers<6>& noise,
+  void measure(Time now, const RigSnapshot& rig, const NormalNumbers<6>& noise,
                ForceTorqueReading& reading) const;
   void deliver(Time now, const ForceTorqueReading& fresh, const DelayLine<ForceTorqueReading>& underway,
                ForceTorqueReading& reading) const;

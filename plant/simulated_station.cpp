@@ -1,7 +1,7 @@
 #include "plant/simulated_station.h"
 
 #include "diagrams/requested_fault.h"
-#include "plant/bench_plant.h"
+#include "plant/rig_plant.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/robot/parallel_robot.h"
@@ -13,7 +13,7 @@ namespace {
 /// The blocks of the station while it is put together.
 struct Parts {
   SimulatedDrives& drives;
-  BenchPlant& plant;
+  RigPlant& plant;
 };
 
 Parts add_robot(DiagramBuilder& inside, const SimulatedStationSettings& settings) {
@@ -22,9 +22,9 @@ Parts add_robot(DiagramBuilder& inside, const SimulatedStationSettings& settings
     const bool of_torque = fault.signal == FaultSignal::drive && fault.kind == FaultKind::scaled;
     if (fault.signal == FaultSignal::brake || of_torque) with_faults.faults.push_back(fault);
   }
-  auto& drives = inside.add<SimulatedDrives>("drives", with_faults, *settings.bench.robot, settings.tick);
+  auto& drives = inside.add<SimulatedDrives>("drives", with_faults, *settings.rig.robot, settings.tick);
   auto& script = inside.add<AppliedWrenchScript>("applied_wrench", settings.applied_wrench);
-  auto& plant = inside.add<BenchPlant>("plant", settings.bench, settings.tick);
+  auto& plant = inside.add<RigPlant>("plant", settings.rig, settings.tick);
   inside.connect(drives.acting, plant.drives);
   inside.connect(script.wrench, plant.applied);
   inside.connect(plant.truth, drives.truth);
@@ -39,7 +39,7 @@ JointCounts measured_joints(const Mechanism& robot) {
 OutputPort<JointReading> add_encoders(DiagramBuilder& inside, const SimulatedStationSettings& settings,
                                       const Parts& parts) {
   auto& encoders =
-      inside.add<SimulatedEncoders>("encoders", settings.encoders, measured_joints(*settings.bench.robot),
+      inside.add<SimulatedEncoders>("encoders", settings.encoders, measured_joints(*settings.rig.robot),
                                     derive_seed(settings.seed, "encoders"));
   inside.connect(parts.plant.truth, encoders.truth);
   return encoders.joints;
@@ -47,16 +47,16 @@ OutputPort<JointReading> add_encoders(DiagramBuilder& inside, const SimulatedSta
 
 OutputPort<DriveReading> add_current_sensors(DiagramBuilder& inside, const SimulatedStationSettings& settings,
                                              const Parts& parts) {
-  auto& sensors = inside.add<SimulatedCurrentSensors>("current_sensors", settings.currents,
-                                                      settings.bench.robot->drives(),
-                                                      derive_seed(settings.seed, "currents"));
+  auto& sensors =
+      inside.add<SimulatedCurrentSensors>("current_sensors", settings.currents, settings.rig.robot->drives(),
+                                          derive_seed(settings.seed, "currents"));
   inside.connect(parts.drives.acting, sensors.drives);
   return sensors.currents;
 }
 
 OutputPort<ImuReading> add_imu(DiagramBuilder& inside, const SimulatedStationSettings& settings,
                                const Parts& parts) {
-  auto& imu = inside.add<SimulatedImu>("imu", settings.imu, *settings.bench.robot,
+  auto& imu = inside.add<SimulatedImu>("imu", settings.imu, *settings.rig.robot,
                                        derive_seed(settings.seed, "imu"), settings.tick);
   inside.connect(parts.plant.truth, imu.truth);
   return imu.imu;
@@ -66,17 +66,16 @@ std::optional<OutputPort<ForceTorqueReading>> add_force_torque_sensor(
     DiagramBuilder& inside, const SimulatedStationSettings& settings, const Parts& parts) {
   if (!settings.instrument.mountings.empty()) {
     auto& instrument =
-        inside.add<SimulatedInstrument>("instrument", settings.instrument, settings.bench.pulls,
-                                        settings.bench.robot, derive_seed(settings.seed, "instrument"));
+        inside.add<SimulatedInstrument>("instrument", settings.instrument, settings.rig.pulls,
+                                        settings.rig.robot, derive_seed(settings.seed, "instrument"));
     inside.connect(parts.plant.truth, instrument.truth);
     return instrument.force_torque;
   }
   if (!settings.has_force_torque_sensor()) return std::nullopt;
   const auto obstacle = static_cast<std::size_t>(settings.force_torque->obstacle);
-  auto& sensor =
-      inside.add<SimulatedForceTorqueSensor>("force_torque_sensor", *settings.force_torque,
-                                             settings.bench.obstacles[obstacle]->form().position_in_base,
-                                             derive_seed(settings.seed, "force_torque"));
+  auto& sensor = inside.add<SimulatedForceTorqueSensor>(
+      "force_torque_sensor", *settings.force_torque,
+      settings.rig.obstacles[obstacle]->form().position_in_base, derive_seed(settings.seed, "force_torque"));
   inside.connect(parts.plant.snapshot, sensor.snapshot);
   return sensor.force_torque;
 }
@@ -100,7 +99,7 @@ SimulatedStationSettings with_ideal_sensors(SimulatedStationSettings settings) {
 }
 
 SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedStationSettings& settings) {
-  if (!settings.bench.robot) throw SetupError("a simulated station needs a robot");
+  if (!settings.rig.robot) throw SetupError("a simulated station needs a robot");
   const bool has_instrument = !settings.instrument.mountings.empty();
   require_possible(settings.faults,
                    {.has_passive_encoders = settings.encoders.passive_mounted,
@@ -123,7 +122,7 @@ SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedS
   }
   if (settings.base_forces) {
     auto& sensors =
-        inside.add<SimulatedBaseForces>("base_force_sensors", *settings.base_forces, settings.bench.robot,
+        inside.add<SimulatedBaseForces>("base_force_sensors", *settings.base_forces, settings.rig.robot,
                                         derive_seed(settings.seed, "base_forces"));
     inside.connect(parts.plant.snapshot, sensors.snapshot);
     station.base_forces = inside.export_output("base_forces", sensors.forces);

@@ -7,10 +7,10 @@
 #include "diagrams/faulty_value.h"
 #include "diagrams/station.h"
 #include "plant/applied_wrench.h"
-#include "plant/bench_settings.h"
 #include "plant/contact_truth.h"
 #include "plant/obstacle_truth.h"
 #include "plant/plant_truth.h"
+#include "plant/rig_settings.h"
 #include "plant/simulated_base_forces.h"
 #include "plant/simulated_current_sensors.h"
 #include "plant/simulated_drives.h"
@@ -23,9 +23,9 @@
 
 namespace flinch {
 
-/// A simulated bench with its drives and sensors.
+/// A simulated rig with its drives and sensors.
 struct SimulatedStationSettings {
-  BenchSettings bench;
+  RigSettings rig;
   SimulatedDrivesSettings drives;
   SimulatedEncodersSettings encoders;
   SimulatedCurrentSensorsSettings currents;
@@ -49,7 +49,7 @@ struct SimulatedStationSettings {
 
   bool has_force_torque_sensor() const {
     return force_torque && force_torque->obstacle >= 0 &&
-           static_cast<std::size_t>(force_torque->obstacle) < bench.obstacles.size();
+           static_cast<std::size_t>(force_torque->obstacle) < rig.obstacles.size();
   }
 };
 
@@ -69,8 +69,8 @@ struct SimulatedStation : Station {
   OutputPort<PlatformMotion> platform_truth;
 };
 
-/// Adds the simulated bench as one nested diagram, "station". Its continuous state wants an adaptive
-/// integrator: SundialsIntegrator. Throws SetupError for settings that describe no bench.
+/// Adds the simulated rig as one nested diagram, "station". Its continuous state wants an adaptive
+/// integrator: SundialsIntegrator. Throws SetupError for settings that describe no rig.
 SimulatedStation add_simulated_station(DiagramBuilder& builder, const SimulatedStationSettings& settings);
 
 }  // namespace flinch

@@ -23,6 +23,6 @@ struct TorqueRippleBy {
   }
 };
 
-using TorqueRipple = TorqueRippleBy<PositionWave>;
+using TorqueRipple = TorqueRippleBy<PositionHarmonic>;
 
 }  // namespace flinch

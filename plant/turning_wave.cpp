@@ -6,12 +6,12 @@
 
 namespace flinch {
 
-TurningWave::TurningWave(const PositionWave& wave)
+TurningHarmonic::TurningHarmonic(const PositionHarmonic& wave)
     : times_(static_cast<int>(wave.rate)), start_(wave.amplitude * unit_vector(wave.phase)) {}
 
 // By squaring: each power c + i s of the direction whose number is in the rate turns the start, of which the
 // imaginary part is wanted.
-double TurningWave::at(const Eigen::Vector2d& direction) const noexcept {
+double TurningHarmonic::at(const Eigen::Vector2d& direction) const noexcept {
   double x = start_.x(), y = start_.y();
   double c = direction.x(), s = direction.y();
   for (int left = times_; left > 0; left /= 2) {
@@ -27,7 +27,7 @@ double TurningWave::at(const Eigen::Vector2d& direction) const noexcept {
   return y;
 }
 
-bool repeats_each_turn(const PositionWave& wave) {
+bool repeats_each_turn(const PositionHarmonic& wave) {
   constexpr double most = 1000.0;  // above, rounding of the powers would be seen
   return wave.rate >= 0.0 && wave.rate <= most && wave.rate == std::floor(wave.rate);
 }

@@ -8,11 +8,11 @@ namespace flinch {
 
 /// A wave along the position of a joint that turns, a whole number of times a turn, told by the joint's
 /// direction instead of its angle: sin(n q + phase) from the n-th power of cos q + i sin q.
-class TurningWave {
+class TurningHarmonic {
  public:
-  TurningWave() = default;
+  TurningHarmonic() = default;
   /// `wave` must be one that `repeats_each_turn`.
-  explicit TurningWave(const PositionWave& wave);
+  explicit TurningHarmonic(const PositionHarmonic& wave);
 
   double at(const Eigen::Vector2d& direction) const noexcept;
 
@@ -22,6 +22,6 @@ class TurningWave {
 };
 
 /// Whether it is the same after a whole turn.
-bool repeats_each_turn(const PositionWave& wave);
+bool repeats_each_turn(const PositionHarmonic& wave);
 
 }  // namespace flinch

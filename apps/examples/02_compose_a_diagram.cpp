@@ -23,8 +23,8 @@ int main() {
   using namespace flinch;
   SimulatedStationSettings settings;
   const auto robot =
-      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
-  settings.bench.robot = robot;
+      std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
+  settings.rig.robot = robot;
   settings.applied_wrench = {
       {.peak_in_base = PlatformVector{{20, 10, 1}}, .start = 50ms, .rise = 50ms, .fall = 50ms}};
 

@@ -33,8 +33,8 @@ class Spring final : public System {
 int main() {
   SimulatedStationSettings settings;
   const auto robot =
-      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::simulation));
-  settings.bench.robot = robot;
+      std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::simulation));
+  settings.rig.robot = robot;
   settings.applied_wrench = {
       {.peak_in_base = PlatformVector{{20, 0, 0}}, .rise = 0s, .hold = 1s, .fall = 0s}};
   DiagramBuilder builder("example", 1ms);

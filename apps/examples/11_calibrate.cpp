@@ -12,7 +12,7 @@ using namespace flinch;
 /// Whether all that can be found lies within four of its deviations of the truth.
 static bool holds(const CalibrationResult& result, const Eigen::VectorXd& truth) {
   std::printf("%s\n", calibration_table(result).c_str());
-  bool good = result.doubts.empty();
+  bool good = result.contradictions.empty();
   for (Eigen::Index i = 0; i < truth.size(); ++i) {
     const CalibratedParameter& found = result.parameters[static_cast<std::size_t>(i)];
     const double error = std::abs(found.value - truth[i]);

@@ -15,7 +15,7 @@
 #include "calibration/threshold_calibration.h"
 #include "calibration/thresholds_output.h"
 #include "calibration/written_parameters.h"
-#include "experiments/verdict/recorded_doubts.h"
+#include "experiments/verdict/recorded_sensor_faults.h"
 #include "systems/config/file_kind.h"
 #include "systems/foundation/problems_of_place.h"
 #include "systems/foundation/setup_error.h"
@@ -125,8 +125,8 @@ std::vector<ResidualRecording> residuals_of(const FreeMotions& motions) {
 void calibrate_fused_detector(const std::vector<ResidualRecording>& recordings, bool quiet,
                               ThresholdFindings& found) {
   Progress progress("calibrating the fused detector", quiet);
-  found.residuals =
-      calibrate_residuals(recordings, found.goal, found.doubts, [&](double share) { progress.show(share); });
+  found.residuals = calibrate_residuals(recordings, found.goal, found.warnings,
+                                        [&](double share) { progress.show(share); });
 }
 
 }  // namespace
@@ -148,9 +148,9 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
     note_settings(motions.scenarios, found);
   }
   found.estimators =
-      calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal, found.doubts);
+      calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal, found.warnings);
   const std::vector<ResidualRecording> residuals = residuals_of(motions);
-  for (std::string& doubt : left_out_imus(motions)) found.doubts.push_back(std::move(doubt));
+  for (std::string& doubt : left_out_imus(motions)) found.warnings.push_back(std::move(doubt));
   calibrate_fused_detector(residuals, quiet, found);
   found.drive_deviations =
       drive_deviations(residuals, *motions.scenarios.front().robot.robot, IsolationSettings().uncertainty);

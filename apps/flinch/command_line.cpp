@@ -284,7 +284,7 @@ void add_bus_verbs(CLI::App& app, Verbs& verbs) {
       ->check(problem_with_seconds)
       ->type_name("S")
       ->group("Bus");
-  add_live_of_bench(serve_verb, verbs.serve.live);
+  add_live_of_rig(serve_verb, verbs.serve.live);
   add_fault(serve_verb, verbs.serve.faults);
   add_bus(serve_verb, verbs.serve.bus, "Name of this robot, to choose it by among several [none]");
   add_pace(serve_verb, verbs.serve.bus,

@@ -85,14 +85,16 @@ void add_compare_verb(CLI::App& app, Verbs& verbs) {
 void add_graph_verb(CLI::App& app, Verbs& verbs) {
   CLI::App& graph_verb =
       verbs.add(app, "graph", "Draw the diagram of a scenario's closed loop",
-                "flinch graph apps/scenarios/platform_collision.yaml --out loop.svg", verbs.graph, &graph);
+                "flinch graph apps/scenarios/platform_collision.yaml --out loop.html", verbs.graph, &graph);
   graph_verb
       .add_option("scenario", verbs.graph.scenario,
                   "Scenario file (YAML), or the name of one that comes with flinch")
       ->required()
       ->transform(shipped("scenarios"))
       ->type_name("SCENARIO.yaml");
-  graph_verb.add_option("-o,--out", verbs.graph.out, "A .svg or .dot file [DOT on stdout]")
+  graph_verb
+      .add_option("-o,--out", verbs.graph.out,
+                  "A page (.html) to search and fold, a picture (.svg) or a .dot file [DOT on stdout]")
       ->type_name("FILE");
 }
 

@@ -1,5 +1,4 @@
 // What the verbs do that only look at files.
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/command_line.h"
@@ -8,13 +7,12 @@
 #include "apps/flinch/output_place.h"
 #include "apps/flinch/printing.h"
 #include "apps/flinch/progress.h"
-#include "apps/flinch/shell_word.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "experiments/recorded/judged_log.h"
 #include "experiments/report/experiment_report.h"
 #include "experiments/report/report_page.h"
-#include "experiments/robot_check/robot_doubts.h"
 #include "experiments/robot_check/robot_summary.h"
+#include "experiments/robot_check/robot_warnings.h"
 #include "experiments/robot_check/workspace_picture.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_calibrations.h"
@@ -50,23 +48,11 @@ Report recorded_report(const std::filesystem::path& file, const CommonOptions& c
   });
 }
 
-/// Lets Graphviz draw `dot` into `file`, which is replaced only by a whole picture.
-void draw_svg(const std::string& dot, const std::filesystem::path& file) {
-  const ResultFile source(file.string() + ".dot");  // never finished
-  source.write(dot);
-  ResultFile picture(file);
-  const std::string command =
-      "dot -Tsvg -o " + shell_word(picture.unfinished_name()) + " " + shell_word(source.unfinished_name());
-  if (std::system(command.c_str()) == 0) return picture.finish();
-  throw SetupError(file.string() +
-                   ": Graphviz could not draw it; is the program 'dot' installed (package graphviz)?");
-}
-
 /// The kind of a good file, and what to know of it.
 struct Checked {
   std::string what;
-  std::vector<CalibrationDoubt> doubts = {};
-  std::vector<std::string> robot_doubts = {};
+  std::vector<CalibrationWarning> warnings = {};
+  std::vector<std::string> robot_warnings = {};
   std::optional<RobotFile> robot = {};  ///< Of a robot file.
 };
 
@@ -102,17 +88,20 @@ Checked check_text(const std::filesystem::path& file) {
       return {"campaign", check_campaign(file)};
     case FileKind::data_spec:
       return {"data specification", check_data_spec(file)};
+    case FileKind::figures:
+      check_figures(file);
+      return {"figures"};
     case FileKind::robot: {
       const std::string text = read_config_file(file);
       const RobotFile robot = parse_robot_file(text, file.string());
       check_thresholds(robot_calibrations(text, file.string()), robot);
-      return {"robot", {}, robot_doubts(robot), robot};
+      return {"robot", {}, robot_warnings(robot), robot};
     }
     case FileKind::scenario:
       break;
   }
   const Scenario scenario = check_scenario(file);
-  return {"scenario", scenario.doubts, robot_doubts(scenario.robot)};
+  return {"scenario", scenario.warnings, robot_warnings(scenario.robot)};
 }
 
 Checked check_file(const std::filesystem::path& file, const CommonOptions& common) {
@@ -126,8 +115,8 @@ Checked check_file(const std::filesystem::path& file, const CommonOptions& commo
 
 std::vector<std::string> warnings_of(const std::filesystem::path& file, const Checked& checked) {
   std::vector<std::string> warnings;
-  for (const std::string& doubt : checked.robot_doubts) warnings.push_back(file.string() + ": " + doubt);
-  for (const CalibrationDoubt& doubt : checked.doubts) warnings.push_back(doubt.sentence);
+  for (const std::string& doubt : checked.robot_warnings) warnings.push_back(file.string() + ": " + doubt);
+  for (const CalibrationWarning& doubt : checked.warnings) warnings.push_back(doubt.sentence);
   return warnings;
 }
 
@@ -169,32 +158,6 @@ ExitStatus report(const ReportOptions& options) {
     print_result("{}\n", json_text(Json{{"report", page.string()}}));
   } else if (!options.common.quiet) {
     print_result("report: {}\n", page.string());
-  }
-  return ExitStatus::done;
-}
-
-ExitStatus graph(const GraphOptions& options) {
-  const std::string extension = options.out.extension().string();
-  if (!options.out.empty() && extension != ".svg" && extension != ".dot") {
-    throw SetupError(options.out.string() + ": a graph is written as .svg or .dot, not as '" + extension +
-                     "'");
-  }
-  require_output(options.out, {options.scenario},
-                 extension == ".svg" ? OutputKind::picture : OutputKind::graph);
-  const std::string dot = closed_loop(options.scenario)->graphviz();
-  if (options.out.empty()) {
-    print_result("{}", options.common.json ? json_text(Json{{"dot", dot}}) + "\n" : dot);
-    return ExitStatus::done;
-  }
-  if (extension == ".svg") {
-    draw_svg(dot, options.out);
-  } else {
-    write_result(options.out, dot);
-  }
-  if (options.common.json) {
-    print_result("{}\n", json_text(Json{{"graph", options.out.string()}}));
-  } else if (!options.common.quiet) {
-    print_result("graph: {}\n", options.out.string());
   }
   return ExitStatus::done;
 }

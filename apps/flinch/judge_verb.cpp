@@ -153,7 +153,7 @@ ExitStatus judge(const JudgeOptions& options) {
   if (!options.out.empty() && readings->samples() > 0)
     page.emplace(1e-9 * static_cast<double>(readings->time_ns.front()),
                  1e-9 * static_cast<double>(readings->time_ns.back()), to_seconds(scenario.control_period));
-  SignalWatch watch;
+  SignalMonitor watch;
   if (page) watch = {JudgedPage::shows, [&page](const Recording& latest) { page->see(latest); }};
   const JudgedLog judged =
       judge_log(scenario, readings, truth, watch, [&progress](double share) { progress.show(share); });

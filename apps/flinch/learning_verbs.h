@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/flinch/command_line.h"
-#include "experiments/scenario/calibration_doubts.h"
+#include "experiments/scenario/calibration_warnings.h"
 
 namespace flinch {
 
@@ -60,7 +60,7 @@ ExitStatus evaluate(const EvaluateOptions& options);
 /// what reads it.
 void check_classifier(const std::filesystem::path& model);
 void check_data_set(const std::filesystem::path& data);
-std::vector<CalibrationDoubt> check_data_spec(const std::filesystem::path& spec);
+std::vector<CalibrationWarning> check_data_spec(const std::filesystem::path& spec);
 
 /// follow_networks(), and what stands in for it where this program was built without what reads networks.
 std::function<void(Scenario&)> classifier_of(const std::vector<std::filesystem::path>& models);

@@ -25,7 +25,7 @@ void add_port(CLI::App& verb, LiveOptions& live, const std::string& what) {
 
 }  // namespace
 
-void add_live_of_bench(CLI::App& serve_verb, LiveOptions& live) {
+void add_live_of_rig(CLI::App& serve_verb, LiveOptions& live) {
   add_port(serve_verb, live,
            "Show the robot in a browser while it is served, at the address that is printed; --live=PORT "
            "chooses the port. Only this computer, and who knows the address, can see it");

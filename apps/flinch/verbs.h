@@ -55,7 +55,7 @@ void take_standard_input(CLI::App& app);
 /// The options by which a run is watched in a browser.
 void add_live(CLI::App& run_verb, LiveOptions& live);
 /// The option of a robot that is served, whose pace is its own.
-void add_live_of_bench(CLI::App& serve_verb, LiveOptions& live);
+void add_live_of_rig(CLI::App& serve_verb, LiveOptions& live);
 
 /// The verbs and their options.
 struct Verbs {

@@ -10,7 +10,7 @@
 #include "drivers/wire_header.h"
 #include "experiments/bus/await_robot.h"
 #include "experiments/bus/names.h"
-#include "experiments/bus/opening_watch.h"
+#include "experiments/bus/opening_monitor.h"
 #include "experiments/live/spectator.h"
 #include "experiments/recorded/recorded_signals.h"
 #include "experiments/scenario/scenario.h"
@@ -263,7 +263,7 @@ void LiveRun::run_in_lockstep() {
 
 /// While the gate waits: has drives switched on again that have gone off, as where the robot has not heard us
 /// for some milliseconds. Whether to end the run, since the gate will not open and nobody is there to help.
-bool LiveRun::keeps_closed(OpeningWatch& opening) {
+bool LiveRun::keeps_closed(OpeningMonitor& opening) {
   const Time now = context_.time();
   const bool is_given_up = opening.sees_it_closed(context_.get(experiment_.control.gate), now);
   if (settings_.attended || opening.has_opened() || is_interrupted()) return false;
@@ -278,7 +278,7 @@ bool LiveRun::keeps_closed(OpeningWatch& opening) {
 void LiveRun::run_in_real_time() {
   std::uint32_t received = 0;
   Time heard{};
-  OpeningWatch opening;
+  OpeningMonitor opening;
   const std::function<bool()> over = [&, this] {
     if (std::exchange(received, station_.link().received) != received) heard = context_.time();
     const bool was_left = context_.time() - heard > settings_.patience;

@@ -23,7 +23,7 @@
 
 namespace flinch {
 
-class OpeningWatch;
+class OpeningMonitor;
 class Spectator;
 struct Scenario;
 
@@ -100,7 +100,7 @@ class LiveRun {
   void run_in_lockstep();
   void note_timing(std::map<std::string, std::string>& attributes) const;
   void run_in_real_time();
-  bool keeps_closed(OpeningWatch& opening);
+  bool keeps_closed(OpeningMonitor& opening);
   bool in_lockstep() const { return settings_.pace == Pace::lockstep; }
   bool is_interrupted() const { return settings_.interrupts() > 0; }
   bool stands_ready() const;

@@ -46,6 +46,8 @@ Json group_json(const CampaignGroup& group, const Alarms& alarms) {
           {"missed", group.missed},
           {"missed_at_most", known(group.missed_at_most)},
           {"quantiles", quantiles},
+          {"median_within", {known(group.median_within[0]), known(group.median_within[1])}},
+          {"p90_within", {known(group.p90_within[0]), known(group.p90_within[1])}},
           {"false_alarms", group.false_alarms},
           {"contact_free_h", group.contact_free / 3600.0},
           {"rate", group.false_alarms_per_hour},

@@ -48,7 +48,7 @@ std::size_t next_digit(std::size_t& index, std::size_t count) {
 
 /// "campaign.yaml:7: " where the campaign gave the value; empty where nobody did.
 std::string place_of(const ConfigNode& value) {
-  return value.file ? ConfigPlace{value.file.get(), value.line}.text() + ": " : "";
+  return value.file ? SourceLocation{value.file.get(), value.line}.text() + ": " : "";
 }
 
 /// A scenario while values are put into it.
@@ -129,17 +129,17 @@ void make_hand(Draft& draft) {
 }
 
 /// The robot when a moving obstacle meets it: half-way through its motion, or where it holds still.
-HalfWay meeting_of(const CampaignContact& settings, RobotFiles& robots, const Draft& draft,
-                   const Scenario& scenario) {
+MeetingPoint meeting_of(const CampaignContact& settings, RobotFiles& robots, const Draft& draft,
+                        const Scenario& scenario) {
   if (settings.by == CampaignContact::By::pushing) {
     const SimulatedScenario simulated = parse_simulated_scenario(draft.root(), draft.file(), robots);
     const ParallelRobot& robot = *simulated.robot.robot;
-    HalfWay at{{}, push_begin};
-    robot.kinematics(simulated.station.bench.initial_pose.value_or(robot.home_pose()),
+    MeetingPoint at{{}, push_begin};
+    robot.kinematics(simulated.station.rig.initial_pose.value_or(robot.home_pose()),
                      PlatformVector::Zero(robot.dof()), at.now);
     return at;
   }
-  HalfWay at = half_way_through(scenario);
+  MeetingPoint at = meeting_point_of(scenario);
   if (const std::optional<Time> start = scenario.control.trajectory.start) at.time += to_seconds(*start);
   return at;
 }
@@ -158,7 +158,7 @@ bool move_obstacle(const CampaignContact& settings, RobotFiles& robots, Draft& d
     throw SetupError("there is no entry in 'obstacles', or a 'pylon' before it, so 'contact' can move none");
   }
   const ParallelRobot& robot = *scenario.robot.robot;
-  const HalfWay at = meeting_of(settings, robots, draft, scenario);
+  const MeetingPoint at = meeting_of(settings, robots, draft, scenario);
   const auto contact = draw_touch(robot, at.now, kind, scenario.obstacles.front().shape, random);
   if (!contact) return false;
   expect(contact->body, draft, run);
@@ -287,7 +287,7 @@ void append_new(const auto& more, auto& all) {
 }
 
 /// Whether the campaign varies calibrations, and leaves the threshold that they replace to the scenario.
-bool is_meant(const Campaign& campaign, const CalibrationDoubt& doubt) {
+bool is_meant(const Campaign& campaign, const CalibrationWarning& doubt) {
   const auto varies = [&campaign](const std::string& key) {
     const auto begins = [&key](const auto& of) {
       return of.key.starts_with(key) || key.starts_with(of.key + ".");
@@ -328,9 +328,9 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
   return run;
 }
 
-std::vector<CalibrationDoubt> check_keys(const Campaign& campaign) {
+std::vector<CalibrationWarning> check_keys(const Campaign& campaign) {
   const bool draws_again = !campaign.drawn.empty() || campaign.contact;  // which may mend values
-  std::vector<CalibrationDoubt> doubts;
+  std::vector<CalibrationWarning> warnings;
   const auto look_at = [&](std::size_t point) {
     CampaignRun unused;
     RandomGenerator random(campaign.seed);
@@ -338,9 +338,9 @@ std::vector<CalibrationDoubt> check_keys(const Campaign& campaign) {
     Draft draft = undrawn(campaign, digits, unused);
     draw_values(campaign, random, draft, unused);
     if (campaign.contact && campaign.contact->by == CampaignContact::By::pushing) make_hand(draft);
-    auto told = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).doubts;
-    std::erase_if(told, [&](const CalibrationDoubt& doubt) { return is_meant(campaign, doubt); });
-    append_new(told, doubts);
+    auto told = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).warnings;
+    std::erase_if(told, [&](const CalibrationWarning& doubt) { return is_meant(campaign, doubt); });
+    append_new(told, warnings);
   };
   for (const std::vector<std::size_t>& points : points_by_axis(campaign)) {
     std::vector<std::string> of_keys, of_values;
@@ -356,13 +356,13 @@ std::vector<CalibrationDoubt> check_keys(const Campaign& campaign) {
     throw_if_any(std::move(of_keys));
     throw_if_any(std::move(of_values));
   }
-  return doubts;
+  return warnings;
 }
 
-std::vector<CalibrationDoubt> check_campaign(const Campaign& campaign) {
-  std::vector<CalibrationDoubt> doubts = check_keys(campaign);
+std::vector<CalibrationWarning> check_campaign(const Campaign& campaign) {
+  std::vector<CalibrationWarning> warnings = check_keys(campaign);
   draw_run(campaign, 0);
-  return doubts;
+  return warnings;
 }
 
 }  // namespace flinch

@@ -34,9 +34,9 @@ CampaignRun draw_run(const Campaign& campaign, std::size_t number, int most_atte
 /// values where nothing is drawn: of the first axis that has any, tried with every scenario and every value
 /// but not with every combination. Returns what is doubtful about the calibrations of these runs, none twice;
 /// where the campaign varies them itself, they are meant to replace what the scenario says.
-std::vector<CalibrationDoubt> check_keys(const Campaign& campaign);
+std::vector<CalibrationWarning> check_keys(const Campaign& campaign);
 
 /// All that can be told of a campaign before its runs: check_keys(), and whether a first run can be drawn.
-std::vector<CalibrationDoubt> check_campaign(const Campaign& campaign);
+std::vector<CalibrationWarning> check_campaign(const Campaign& campaign);
 
 }  // namespace flinch

@@ -46,6 +46,20 @@ std::optional<double> quantile(std::vector<double> values, std::size_t count, do
   return values[place - 1];
 }
 
+namespace {
+
+/// Order statistics around a quantile of `count` values, of which those that are not known are the largest.
+std::array<std::optional<double>, 2> within(std::vector<double> values, std::size_t count, double share) {
+  std::sort(values.begin(), values.end());
+  const RankBounds ranks = ranks_around_quantile(count, share);
+  const auto value_at = [&](std::optional<std::size_t> rank) {
+    return rank && *rank <= values.size() ? std::optional(values[*rank - 1]) : std::nullopt;
+  };
+  return {value_at(ranks.lower), value_at(ranks.upper)};
+}
+
+}  // namespace
+
 void CollectedGroup::add(const RunResult& result, const EstimatorResult& estimator, double missed_after) {
   ++group_.n;
   group_.faults += result.fault.empty() ? 0U : 1U;
@@ -72,7 +86,9 @@ CampaignGroup CollectedGroup::group() const {
   for (std::size_t i = 0; i < shares.size(); ++i)
     group.quantiles[i] = quantile(times_, group.contacts, shares[i]);
   group.median = group.quantiles[2];
+  group.median_within = within(times_, group.contacts, 0.5);
   group.p90 = group.quantiles[4];
+  group.p90_within = within(times_, group.contacts, 0.9);
   const double hours = group.contact_free / 3600.0;
   group.false_alarms_per_hour = hours > 0.0 ? static_cast<double>(group.false_alarms) / hours : 0.0;
   group.false_alarms_per_hour_at_most = garwood_upper(group.false_alarms, hours);
@@ -167,6 +183,8 @@ std::string campaign_json(const Campaign& campaign, const CampaignResults& resul
          {"missed", group.missed},
          {"median_ms", in_ms(group.median)},
          {"p90_ms", in_ms(group.p90)},
+         {"median_ms_within", {in_ms(group.median_within[0]), in_ms(group.median_within[1])}},
+         {"p90_ms_within", {in_ms(group.p90_within[0]), in_ms(group.p90_within[1])}},
          {"false_alarms_per_h", group.false_alarms_per_hour},
          {"at", at},
          {"contacts", group.contacts},

@@ -29,6 +29,9 @@ struct CampaignGroup {
   std::optional<double> missed_at_most;  ///< share, 95 % exact bound; none without contacts
   /// Half and nine tenths of the contacts were detected so soon; none where too many were missed [s].
   std::optional<double> median, p90;
+  /// Between these lies, with 95 %, what the median and the nine tenths of all such contacts are; none where
+  /// there are too few contacts, or too many missed, to tell [s].
+  std::array<std::optional<double>, 2> median_within, p90_within;
   /// So soon a tenth, a quarter, half, three quarters and nine tenths were detected, likewise [s].
   std::array<std::optional<double>, 5> quantiles;
 

@@ -216,7 +216,7 @@ std::optional<DrawnContact> draw_touch(const ParallelRobot& robot, const Kinemat
                     shape);
 }
 
-HalfWay half_way_through(const Scenario& scenario) {
+MeetingPoint meeting_point_of(const Scenario& scenario) {
   const double time = 0.5 * path_of(scenario).duration();
   return {kinematics_at(scenario, time), time};
 }

@@ -22,7 +22,7 @@ struct DrawnContact {
 };
 
 /// The robot of a scenario half-way through its motion, and when that is [s].
-struct HalfWay {
+struct MeetingPoint {
   Kinematics now;
   double time = 0.0;
 };
@@ -46,6 +46,6 @@ std::optional<DrawnContact> draw_touch(const ParallelRobot& robot, const Kinemat
                                        const std::string& kind, const Shape& shape, RandomGenerator& random);
 
 /// Throws SetupError where the scenario has no motion.
-HalfWay half_way_through(const Scenario& scenario);
+MeetingPoint meeting_point_of(const Scenario& scenario);
 
 }  // namespace flinch

@@ -17,14 +17,15 @@ double poisson_at_most(std::size_t events, double mean) {
   return sum;
 }
 
+double binomial_exactly(std::size_t events, std::size_t trials, double share) {
+  const double n = static_cast<double>(trials), k = static_cast<double>(events);
+  const double ways = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
+  return std::exp(ways + k * std::log(share) + (n - k) * std::log1p(-share));
+}
+
 double binomial_at_most(std::size_t events, std::size_t trials, double share) {
-  const double n = static_cast<double>(trials);
   double sum = 0.0;
-  for (std::size_t k = 0; k <= events; ++k) {
-    const double count = static_cast<double>(k);
-    const double ways = std::lgamma(n + 1.0) - std::lgamma(count + 1.0) - std::lgamma(n - count + 1.0);
-    sum += std::exp(ways + count * std::log(share) + (n - count) * std::log1p(-share));
-  }
+  for (std::size_t k = 0; k <= events; ++k) sum += binomial_exactly(k, trials, share);
   return sum;
 }
 
@@ -59,6 +60,18 @@ std::optional<std::size_t> tolerated_events(std::size_t trials, double share, do
   for (std::size_t events = 0; confidence_below(events, trials, share) >= confidence; ++events)
     tolerated = events;
   return tolerated;
+}
+
+RankBounds ranks_around_quantile(std::size_t count, double share, double confidence) {
+  const double beyond = 0.5 * (1.0 - confidence);
+  RankBounds bounds;
+  double chance = 0.0;  // that at most `below` values lie below the quantile
+  for (std::size_t below = 0; below < count; ++below) {
+    chance += binomial_exactly(below, count, share);
+    if (chance <= beyond) bounds.lower = below + 1;
+    if (chance >= 1.0 - beyond && !bounds.upper) bounds.upper = below + 1;
+  }
+  return bounds;
 }
 
 std::size_t trials_without_event(double share, double confidence) {

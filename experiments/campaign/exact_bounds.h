@@ -30,4 +30,11 @@ std::optional<std::size_t> tolerated_events(std::size_t trials, double share, do
 /// The fewest trials that show so without an event. `share` and `confidence` between 0 and 1.
 std::size_t trials_without_event(double share, double confidence = 0.95);
 
+/// Ranks of a sorted sample, from 1 on, between which the quantile `share` of what it was drawn from lies
+/// with `confidence`, as much beyond either end: none where the sample is too small to bound that side.
+struct RankBounds {
+  std::optional<std::size_t> lower, upper;
+};
+RankBounds ranks_around_quantile(std::size_t count, double share, double confidence = 0.95);
+
 }  // namespace flinch

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 struct Collected {
   ReactionGroup group;
-  CollectedGroup noticed;
+  CollectedGroup detection;
   std::string estimator;
   std::vector<double> removals, peaks;
 
@@ -28,7 +28,7 @@ struct Collected {
       const EstimatorResult& followed = result.estimators.front();
       if (group.n == 1) estimator = followed.name;
       if (estimator != followed.name) estimator.clear();
-      noticed.add(result, followed, missed_after);
+      detection.add(result, followed, missed_after);
     }
     const bool detected = !result.estimators.empty() && result.estimators.front().detection_time.has_value();
     group.detected += detected ? 1U : 0U;
@@ -53,8 +53,8 @@ struct Collected {
   }
 
   ReactionGroup finished() {
-    group.noticed = noticed.group();
-    group.noticed.estimator = estimator;
+    group.detection = detection.group();
+    group.detection.estimator = estimator;
     group.removed = removals.size();
     group.removed_median = quantile(removals, group.n, 0.5);
     group.removed_p95 = quantile(removals, group.n, 0.95);
@@ -113,17 +113,17 @@ Json json_of(std::optional<double> value, double scale = 1.0) {
   return value ? Json(scale * *value) : Json(nullptr);
 }
 
-Json noticed_json(const CampaignGroup& noticed) {
-  const double most = noticed.false_alarms_per_hour_at_most;
-  return {{"estimator", noticed.estimator.empty() ? Json(nullptr) : Json(noticed.estimator)},
-          {"contacts", noticed.contacts},
-          {"missed", noticed.missed},
-          {"missed_share_at_most", json_of(noticed.missed_at_most)},
-          {"median_ms", json_of(noticed.median, 1e3)},
-          {"p90_ms", json_of(noticed.p90, 1e3)},
-          {"false_alarms", noticed.false_alarms},
-          {"contact_free_h", noticed.contact_free / 3600.0},
-          {"false_alarms_per_h", noticed.false_alarms_per_hour},
+Json detection_json(const CampaignGroup& detection) {
+  const double most = detection.false_alarms_per_hour_at_most;
+  return {{"estimator", detection.estimator.empty() ? Json(nullptr) : Json(detection.estimator)},
+          {"contacts", detection.contacts},
+          {"missed", detection.missed},
+          {"missed_share_at_most", json_of(detection.missed_at_most)},
+          {"median_ms", json_of(detection.median, 1e3)},
+          {"p90_ms", json_of(detection.p90, 1e3)},
+          {"false_alarms", detection.false_alarms},
+          {"contact_free_h", detection.contact_free / 3600.0},
+          {"false_alarms_per_h", detection.false_alarms_per_hour},
           {"false_alarms_per_h_at_most", std::isfinite(most) ? Json(most) : Json(nullptr)}};
 }
 
@@ -273,7 +273,7 @@ std::string reactions_json(const Campaign& campaign, const ReactionSummary& summ
                       {"violations_could_stop", could_stop_json(group, group.violations_could_stop)},
                       {"self_collisions", group.self_collisions},
                       {"gate_faults", group.gate_faults}});
-    groups.back().update(noticed_json(group.noticed));
+    groups.back().update(detection_json(group.detection));
   }
   for (const ForceFit& fit : summary.fits) fits.push_back(fit_json(fit));
   const double rate = pace.wall > 0.0 ? static_cast<double>(pace.runs_now) / pace.wall : 0.0;

@@ -17,7 +17,7 @@ struct ReactionGroup {
   std::string body;   ///< that was meant to be touched, else that was
   std::size_t n = 0;
   std::size_t detected = 0;
-  CampaignGroup noticed;  ///< how, by the estimator that was followed; it has no name where that differs
+  CampaignGroup detection;  ///< how, by the estimator that was followed; it has no name where that differs
   std::size_t class_right = 0, class_wrong = 0;  ///< of those in which one was accepted, and known to others
   std::size_t removed = 0;                       ///< contacts that were over before the end of the run
   std::optional<double> removed_median, removed_p95;  ///< from the onset; none where more stayed [s]

@@ -158,14 +158,14 @@ struct Moments {
 
 /// How far a recording has come towards samples.
 struct Progress {
-  bool begun = false, noticed = false;
+  bool begun = false, detected = false;
   bool labelled = false;   ///< At some tick after that one thing touched.
   bool estimated = false;  ///< At one of those the wrench was known.
   bool chosen = false;     ///< One of those was asked for.
 
   std::string lacks() const {
     if (!begun) return "nothing touched";
-    if (!noticed) return "not detected";
+    if (!detected) return "not detected";
     if (!labelled) return "detected, but at no tick did one thing touch";
     if (estimated && !chosen) return "detected, but at no tick that 'samples' asks for";
     return "detected, but wrench or motion were not known";
@@ -173,19 +173,19 @@ struct Progress {
 };
 
 /// None where something was not known at one of its moments.
-std::optional<CourseMoments> course_at(std::size_t tick, Time period,
-                                       const RecordedValues<RecordedEstimate>& estimates,
-                                       const RecordedValues<PlatformMotion>& motions) {
-  CourseMoments course;
-  for (std::size_t i = 0; i < course_ages.size(); ++i) {
-    const auto age = static_cast<std::size_t>((course_ages[i] + period - Time{1}) / period);
+std::optional<ContactMoments> course_at(std::size_t tick, Time period,
+                                        const RecordedValues<RecordedEstimate>& estimates,
+                                        const RecordedValues<PlatformMotion>& motions) {
+  ContactMoments course;
+  for (std::size_t i = 0; i < history_ages.size(); ++i) {
+    const auto age = static_cast<std::size_t>((history_ages[i] + period - Time{1}) / period);
     if (age > tick) return std::nullopt;
     const RecordedEstimate estimate = estimates[tick - age];
     const PlatformMotion motion = motions[tick - age];
     if (!estimate.valid || !motion.valid()) return std::nullopt;
     course[i] = {estimate.wrench_in_base, motion.velocity};
-    const Time later = static_cast<Time::rep>(age) * period - course_ages[i];
-    if (period <= 1ms || later == Time::zero()) continue;  // as CourseMemory: between two long ticks
+    const Time later = static_cast<Time::rep>(age) * period - history_ages[i];
+    if (period <= 1ms || later == Time::zero()) continue;  // as ContactWindowBuffer: between two long ticks
     const RecordedEstimate next = estimates[tick - age + 1];
     const PlatformMotion moved = motions[tick - age + 1];
     if (!next.valid || !moved.valid()) return std::nullopt;
@@ -214,7 +214,7 @@ ContactSamples contact_samples(const Recording& recording, const ParallelRobot& 
   const auto estimates = read<RecordedEstimate>(recording, wrench_of(choice, recording));
   const double period = to_seconds(recording.period);
   ContactSamples result;
-  Progress progress{.noticed = moments.early.has_value()};
+  Progress progress{.detected = moments.early.has_value()};
   const double start = recording.time_ns.empty() ? 0.0 : 1e-9 * static_cast<double>(recording.time_ns[0]);
   for (std::size_t tick = 0; tick < within.end; ++tick) {
     const double time = start + static_cast<double>(tick) * period;

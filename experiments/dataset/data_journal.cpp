@@ -59,7 +59,7 @@ std::string frame_of(std::size_t run, const ContactSamples& samples) {
     for (const int number : {sample.configuration, sample.moment, sample.touched}) put(bytes, number);
     for (const double number : {sample.since_onset, sample.since_early, sample.force}) put(bytes, number);
     put_all(bytes, sample.pose);
-    for (const CourseMoment& moment : sample.course) {
+    for (const ContactMoment& moment : sample.course) {
       put_all(bytes, moment.wrench_in_base);
       put_all(bytes, moment.velocity);
     }
@@ -84,7 +84,7 @@ std::optional<std::pair<std::size_t, ContactSamples>> run_of(const std::string& 
     for (double* const number : {&sample.since_onset, &sample.since_early, &sample.force})
       *number = frame.take<double>();
     frame.take_all(robot.home_pose().size(), sample.pose);
-    for (CourseMoment& moment : sample.course) {
+    for (ContactMoment& moment : sample.course) {
       frame.take_all(robot.dof(), moment.wrench_in_base);
       frame.take_all(robot.dof(), moment.velocity);
     }

@@ -14,7 +14,7 @@
 namespace flinch {
 namespace {
 
-DataPart read_part(ConfigReader& reader, std::vector<CalibrationDoubt>& doubts) {
+DataPart read_part(ConfigReader& reader, std::vector<CalibrationWarning>& warnings) {
   DataPart part;
   std::filesystem::path campaign;
   reader.required().file("campaign", campaign);
@@ -23,8 +23,8 @@ DataPart read_part(ConfigReader& reader, std::vector<CalibrationDoubt>& doubts) 
   if (campaign.empty()) return part;
   try {
     part.campaign = read_campaign(campaign);
-    for (const CalibrationDoubt& doubt : check_keys(part.campaign)) {
-      if (std::find(doubts.begin(), doubts.end(), doubt) == doubts.end()) doubts.push_back(doubt);
+    for (const CalibrationWarning& doubt : check_keys(part.campaign)) {
+      if (std::find(warnings.begin(), warnings.end(), doubt) == warnings.end()) warnings.push_back(doubt);
     }
   } catch (const SetupError& error) {
     reader.add_problems(error.problems());
@@ -105,7 +105,7 @@ DataSpec read_data_spec(const std::filesystem::path& file, const DataSpecOverrid
   spec.runs = overrides.runs.value_or(static_cast<std::size_t>(runs));
   spec.seed = overrides.seed.value_or(spec.seed);
   read_samples(reader.section("samples"), spec.samples);
-  for (ConfigReader& part : reader.sections("contacts")) spec.parts.push_back(read_part(part, spec.doubts));
+  for (ConfigReader& part : reader.sections("contacts")) spec.parts.push_back(read_part(part, spec.warnings));
   for (ConfigReader& entry : reader.sections("recordings")) {
     DataRecording recording = read_recording_entry(entry);
     const auto is_same = [&](const DataRecording& other) { return other.sha256 == recording.sha256; };

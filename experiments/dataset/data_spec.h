@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/campaign/campaign.h"
-#include "experiments/scenario/calibration_doubts.h"
+#include "experiments/scenario/calibration_warnings.h"
 
 namespace flinch {
 
@@ -57,7 +57,7 @@ struct DataSpec {
   SampleChoice samples;
   std::vector<DataPart> parts;
   std::vector<DataRecording> recordings;
-  std::vector<CalibrationDoubt> doubts;  ///< about those of the campaigns
+  std::vector<CalibrationWarning> warnings;  ///< about those of the campaigns
 
   /// Everything that decides about the data but the number of runs, in words.
   std::string identity() const;

@@ -50,10 +50,10 @@ std::vector<Detector> detectors_of(const Diagram& diagram, const Scenario& scena
 }
 
 /// What is seen of a run, some samples at a time.
-class LogWatch {
+class LogMonitor {
  public:
   /// `has_reference`: the log is of a robot that followed this control path's own references.
-  LogWatch(std::vector<Detector> detectors, bool has_reference, JudgedLog& judged)
+  LogMonitor(std::vector<Detector> detectors, bool has_reference, JudgedLog& judged)
       : detectors_(std::move(detectors)), has_reference_(has_reference), judged_(judged) {}
 
   void see(const Recording& latest) {
@@ -208,7 +208,7 @@ void compare(const LogTruth& truth, double end, JudgedLog& judged) {
 /// The control path over the ticks of one part.
 class PartOfLog {
  public:
-  PartOfLog(const LogPart& part, const Recording& ticks, const SignalWatch& watch)
+  PartOfLog(const LogPart& part, const Recording& ticks, const SignalMonitor& watch)
       : part_(part), ticks_(ticks), diagram_(build_replay(part.scenario, ticks)) {
     std::vector<std::string> paths = recorded_paths(*diagram_);
     std::erase_if(paths, [&watch](const std::string& path) {
@@ -263,7 +263,7 @@ std::size_t JudgedLog::count_by(const std::string& name) const {
 }
 
 JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
-                    const LogTruth& truth, const SignalWatch& watch,
+                    const LogTruth& truth, const SignalMonitor& watch,
                     const std::function<void(double share)>& progress) {
   if (readings->samples() == 0) throw SetupError("the log has no samples");
   const double first = 1e-9 * static_cast<double>(readings->time_ns.front());
@@ -272,7 +272,7 @@ JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Record
   const Recording ticks = completed_readings(readings, scenario.control_period);
   JudgedLog judged;
   judged.seconds = last - first;
-  std::unique_ptr<LogWatch> seen;
+  std::unique_ptr<LogMonitor> seen;
   for (const LogPart& part : parts_of(scenario, *readings, ticks, judged)) {
     PartOfLog path(part, ticks, watch);
     if (seen == nullptr) {
@@ -281,7 +281,8 @@ JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Record
         judged.by.push_back(detector.by);
         judged.signals.push_back(detector.path);
       }
-      seen = std::make_unique<LogWatch>(std::move(detectors), readings->find("reference") != nullptr, judged);
+      seen =
+          std::make_unique<LogMonitor>(std::move(detectors), readings->find("reference") != nullptr, judged);
     }
     path.run(
         [&](const Recording& latest) {

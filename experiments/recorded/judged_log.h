@@ -64,7 +64,7 @@ struct JudgedLog {
 };
 
 /// Who looks at the signals of a run over a log.
-struct SignalWatch {
+struct SignalMonitor {
   std::function<bool(const std::string& path)> wants{};  ///< signals; "motion" and "gate" come in any case
   std::function<void(const Recording& latest)> see{};    ///< some samples at a time; none: nobody looks
 };
@@ -74,7 +74,7 @@ struct SignalWatch {
 /// angles passes the fold of a leg, the control path begins anew with that elbow on its other side. Throws
 /// SetupError as replay() does, and for a truth that is none of this log.
 JudgedLog judge_log(const Scenario& scenario, const std::shared_ptr<const Recording>& readings,
-                    const LogTruth& truth, const SignalWatch& watch = {},
+                    const LogTruth& truth, const SignalMonitor& watch = {},
                     const std::function<void(double share)>& progress = {});
 
 /// Those signals of a run over a log that are wanted, a sample for each tick of the control path. Throws

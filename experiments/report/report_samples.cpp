@@ -388,7 +388,7 @@ void add_samples(const ParallelRobot& robot, const Recording& recording, Report&
   report.period = run.period() * static_cast<double>(together);
   if (!recording.time_ns.empty()) report.start = 1e-9 * static_cast<double>(recording.time_ns.front());
   PageSamples page(together);
-  const bool is_controlled = !recording.attributes.contains(bench_alone);
+  const bool is_controlled = !recording.attributes.contains(rig_alone);
   States states(run.witness() != Witness::none, is_controlled, page);
   std::optional<StationLanes> station;
   if (!is_controlled) station.emplace(recording, page);

@@ -10,8 +10,8 @@ namespace flinch {
 class ParallelRobot;
 struct Recording;
 
-/// An attribute of recordings of a bench alone: what commands it is not known, and left out.
-inline constexpr const char* bench_alone = "bench.alone";
+/// An attribute of recordings of a rig alone: what commands it is not known, and left out.
+inline constexpr const char* rig_alone = "bench.alone";
 
 /// Adds to a page what was recorded of this robot: times, columns and lanes, in one pass over the samples.
 /// The page shows `together` samples as one: the robot is drawn at the hardest contact of them, and every

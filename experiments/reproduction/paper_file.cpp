@@ -4,6 +4,7 @@
 
 #include "experiments/reproduction/figure_path.h"
 #include "systems/config/config_reader.h"
+#include "systems/config/file_kind.h"
 
 namespace flinch {
 namespace {
@@ -271,6 +272,7 @@ void check_id(ConfigReader& entry, const std::vector<Each>& all, const std::stri
 
 PaperFigures read_paper_file(const std::filesystem::path& file) {
   ConfigReader reader = ConfigReader::open(file);
+  require_kind(reader, FileKind::figures);
   const std::filesystem::path folder = file.parent_path();
   PaperFigures all;
   for (ConfigReader& entry : reader.sections("figures")) {

@@ -4,7 +4,7 @@
 #include <charconv>
 
 #include "diagrams/robot_settings.h"
-#include "experiments/scenario/calibration_doubts.h"
+#include "experiments/scenario/calibration_warnings.h"
 #include "experiments/scenario/key_values.h"
 #include "experiments/scenario/robot_files.h"
 #include "experiments/scenario/scenario_calibrations.h"
@@ -125,7 +125,7 @@ void read_rest(ConfigReader& reader, std::optional<std::uint64_t> seed, const Se
   read_expectations(reader.section("expect"), robot, scenario.expected);
   read_force_limits(reader.section("force_limits"), scenario.force_limits);
   scenario.values = reader.finish();
-  scenario.doubts = doubts_about_calibrations(scenario);
+  scenario.warnings = warnings_about_calibrations(scenario);
 }
 
 Scenario assemble(ConfigReader reader, const std::filesystem::path& file, RobotFiles& robots,

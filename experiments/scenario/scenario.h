@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diagrams/contact_control_settings.h"
-#include "experiments/scenario/calibration_doubts.h"
+#include "experiments/scenario/calibration_warnings.h"
 #include "experiments/scenario/scenario_obstacles.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/config/parameter_file.h"
@@ -50,7 +50,7 @@ struct Scenario {
   /// What a run of it shows in which nothing was touched, though it should have been, in one sentence; empty:
   /// nobody knows more.
   std::function<std::string(const Scenario&, const Recording&)> near_miss;
-  std::vector<CalibrationDoubt> doubts;
+  std::vector<CalibrationWarning> warnings;
   std::vector<ReadValue> values;  ///< every parameter of the scenario, defaults included
   std::string text;               ///< of the file
   std::string robot_text;         ///< of the robot file

@@ -11,7 +11,7 @@
 #include "experiments/simulated/exported_truth.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "experiments/verdict/recorded_run.h"
-#include "experiments/verdict/run_watch.h"
+#include "experiments/verdict/run_monitor.h"
 #include "experiments/verdict/verdict.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/diagram_builder.h"
@@ -110,7 +110,7 @@ Verdict judge_experiment(const SimulatedScenario& scenario) {
   Recorder recorder(diagram, paths, samples_at_once, quantity_units(*scenario.robot.robot));
   Recording latest = recorder.description(recorded_attributes(scenario, {}));
   const RecordedRun run(latest, scenario.robot.robot->space());
-  RunWatch watch(run, scenario.force_limits);
+  RunMonitor watch(run, scenario.force_limits);
   const auto look = [&] {
     latest.time_ns.clear();
     for (Signal& signal : latest.signals) signal.rows.clear();

@@ -12,7 +12,7 @@ Realism read_like(ConfigReader& reader, std::string_view key, DriveKind drives) 
   Like like = Like::none;
   reader.choice(key, like, {{"none", Like::none}, {"kind", Like::kind}, {"bench", Like::bench}});
   if (like == Like::none) return {};
-  return like == Like::kind ? kind_realism(drives) : bench_realism(drives);
+  return like == Like::kind ? kind_realism(drives) : rig_realism(drives);
 }
 
 void read_drives(ConfigReader& reader, bool turn, Realism& realism) {

@@ -84,7 +84,7 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
   PlantFriction friction = PlantFriction::as_robot_file;
   double mass_scale = 1.0;
   RobotDeviation deviation;
-  station.bench.torque_ripple = torque_ripple(built.drives.cogging);
+  station.rig.torque_ripple = torque_ripple(built.drives.cogging);
   station.drives.torque_delay = built.drives.torque_delay;
   station.drives.torque_constant = built.drives.torque_constant;
   station.drives.max_torque.setConstant(drives, built.drives.max_torque);
@@ -106,9 +106,9 @@ Realism read_plant(ConfigReader plant, const Scenario& scenario, SimulatedStatio
     deviation.drive_friction_scale.setZero();
     deviation.passive_friction_scale.setZero();
   }
-  station.bench.robot = true_robot(built.robot, deviation);
+  station.rig.robot = true_robot(built.robot, deviation);
   if (plant.has("initial_pose"))
-    station.bench.initial_pose = read_pose_in_reach(plant, "initial_pose", *built.robot);
+    station.rig.initial_pose = read_pose_in_reach(plant, "initial_pose", *built.robot);
   return read_realism(plant, *built.robot);
 }
 
@@ -237,7 +237,7 @@ WrenchRamp read_ramp(ConfigReader reader, const ConfigurationSpace& space) {
 void add_bases(ConfigReader& file, const Scenario& scenario, const BaseForceSettings& settings,
                SimulatedStationSettings& station) {
   try {
-    station.base_forces->bases = leg_bases(station.bench.robot, settings.first_moment, *scenario.robot.robot);
+    station.base_forces->bases = leg_bases(station.rig.robot, settings.first_moment, *scenario.robot.robot);
   } catch (const SetupError& error) {
     file.section("control")
         .section("isolation")
@@ -252,15 +252,15 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   station.seed = scenario.seed;
   know_period(scenario.control_period, station);
   const std::optional<PlatformPath>& path = scenario.control.trajectory.path;
-  if (path) station.bench.initial_pose = path->start();
-  station.bench.obstacles = read_simulated_obstacles(file, scenario.obstacles);
+  if (path) station.rig.initial_pose = path->start();
+  station.rig.obstacles = read_simulated_obstacles(file, scenario.obstacles);
   const Realism realism = read_plant(file.section("plant"), scenario, station);
   for (ConfigReader& ramp : file.sections("applied_wrench"))
-    station.applied_wrench.push_back(read_ramp(ramp, station.bench.robot->space()));
+    station.applied_wrench.push_back(read_ramp(ramp, station.rig.robot->space()));
   std::size_t mounting = 0;
   for (ConfigReader& pulls : file.sections("pulls")) {
     read_pulls(pulls, scenario.mountings[mounting++], scenario.robot.robot->space_dimension(),
-               station.bench.pulls);
+               station.rig.pulls);
   }
   station.instrument.mountings = scenario.mountings;
   const std::optional<BaseForceSettings>& base_forces = scenario.control.isolation.base_forces;
@@ -272,7 +272,7 @@ void read_station(ConfigReader& file, const Scenario& scenario, SimulatedStation
   station = with_perturbed_robot(std::move(station), perturbed_robot);
   if (base_forces) add_bases(file, scenario, *base_forces, station);
   if (file.good()) {
-    for (const ContactAtStart& contact : contacts_at_start(station.bench))
+    for (const ContactAtStart& contact : contacts_at_start(station.rig))
       file.problem(scenario.obstacles[contact.obstacle].key, contact.complaint);
   }
 }

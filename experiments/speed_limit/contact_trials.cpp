@@ -26,7 +26,7 @@ CampaignRun at_speed(const CampaignRun& drawn, const ConfigNode& root, double sp
   const auto faster = with_value(root, "motion.speed_m_per_s", scalar_node(exact_text(speed)));
   run.scenario = parse_simulated_scenario(faster, drawn.scenario.file, *campaign.robots);
   if (campaign.addition) campaign.addition->add(run.scenario);
-  const double contact = half_way_through(run.scenario).time +
+  const double contact = meeting_point_of(run.scenario).time +
                          to_seconds(run.scenario.control.trajectory.start.value_or(Time::zero()));
   const double duration = contact + run.scenario.force_limits.transient_duration + watched_after;
   run.scenario.duration = from_seconds(duration);

@@ -65,7 +65,7 @@ void require_passage_and_obstacle(const Node& root, const std::filesystem::path&
   const Node kind = entry(entry(root, "motion"), "kind");
   if (!kind || kind->scalar != "passage") {
     const std::string where =
-        kind && kind->file ? ConfigPlace{kind->file.get(), kind->line}.text() : file.string();
+        kind && kind->file ? SourceLocation{kind->file.get(), kind->line}.text() : file.string();
     problems.push_back(where + ": motion.kind: is " +
                        (kind ? "'" + kind->scalar + "'" : std::string("not there")) +
                        "; it must be 'passage', a straight line through a pose at constant speed, whose "
@@ -319,7 +319,7 @@ SpeedLimitStudy read_speed_limit_study(const SpeedLimitSettings& settings) {
   }
   study.obstacle = obstacle_of(root);
   study.limits = scenario.force_limits;
-  study.pose = half_way_through(scenario).now.pose;
+  study.pose = meeting_point_of(scenario).now.pose;
   const std::vector<std::string> bodies = settings.bodies.empty() ? bodies_of(*study.robot) : settings.bodies;
   study.cells = cells_of(settings.places.empty()
                              ? workspace_grid(*study.robot, scenario.robot.limits, study.pose, settings.grid)

@@ -9,8 +9,8 @@
 
 #include "diagrams/link_status.h"
 #include "experiments/verdict/recorded_classification.h"
-#include "experiments/verdict/recorded_doubts.h"
 #include "experiments/verdict/recorded_estimate.h"
+#include "experiments/verdict/recorded_sensor_faults.h"
 #include "experiments/verdict/recorded_truth.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/framework/tick_timing.h"
@@ -199,7 +199,7 @@ struct RecordedRun::Signals {
   RecordedValues<RecordedEstimate> wrench;
   RecordedValues<PlatformReference> reference;
   RecordedValues<GateStatus> gate;
-  std::optional<RecordedValues<RecordedDoubts>> doubts;
+  std::optional<RecordedValues<RecordedSensorFaults>> doubts;
   std::optional<RecordedValues<RecordedAskable>> askable;
   std::optional<RecordedValues<DriveCheckStatus>> drive_check;
   std::optional<RecordedValues<LocatedContacts>> located;
@@ -293,8 +293,8 @@ RunSample RecordedRun::operator[](std::size_t sample) const {
   now.mode = signals.reaction[sample].mode;
   if (signals.task) now.task = (*signals.task)[sample];
   now.gate = signals.gate[sample];
-  const bool is_noticed = now.detection.level != ContactLevel::none;
-  if (signals.braking && is_noticed) now.braking = (*signals.braking)[sample];
+  const bool is_detected = now.detection.level != ContactLevel::none;
+  if (signals.braking && is_detected) now.braking = (*signals.braking)[sample];
   if (signals.located) now.located = (*signals.located)[sample];
   if (signals.doubts) now.doubts = (*signals.doubts)[sample];
   if (signals.askable) now.askable = (*signals.askable)[sample].askable;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/verdict/recorded_doubts.h"
+#include "experiments/verdict/recorded_sensor_faults.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/robot/configuration_space.h"
 #include "systems/signals/braking_status.h"
@@ -83,7 +83,7 @@ struct RunSample {
   FollowedTask task;  ///< of a reaction that serves tasks
   GateStatus gate;
   BrakingStatus braking;
-  RecordedDoubts doubts;
+  RecordedSensorFaults doubts;
   std::optional<CheckMask> askable;             ///< none: the recording does not tell
   std::optional<DriveCheckStatus> drive_check;  ///< none: the drives were not checked
   int lost_ticks = 0;                           ///< periods without a tick before this one

@@ -8,7 +8,7 @@
 
 #include "experiments/verdict/names_of_touched.h"
 #include "experiments/verdict/recorded_run.h"
-#include "experiments/verdict/run_watch.h"
+#include "experiments/verdict/run_monitor.h"
 #include "systems/framework/recording.h"
 
 namespace flinch {
@@ -92,7 +92,7 @@ void remark_self_contacts(const Verdict& verdict, std::vector<std::string>& rema
 }
 
 void remark_lost_sensors(const Verdict& verdict, std::vector<std::string>& remarks) {
-  if (verdict.imu_doubt != ImuDoubt::none) {
+  if (verdict.imu_doubt != ImuFault::none) {
     remarks.push_back(fmt::format("the IMU was left out from {:.3f} s on: {}", verdict.imu_doubted,
                                   name(verdict.imu_doubt)));
   }
@@ -164,7 +164,7 @@ void judge_circumstances(const Recording& recording, Verdict& verdict) {
 
 }  // namespace
 
-Verdict judge(const RunWatch& watch, const Expectations& expected) {
+Verdict judge(const RunMonitor& watch, const Expectations& expected) {
   Verdict verdict = watch.seen();
   const std::vector<std::string> of_the_gate = std::exchange(verdict.failures, {});
   expect_contact(verdict, expected, verdict.failures);
@@ -190,7 +190,7 @@ Verdict judge(const RunWatch& watch, const Expectations& expected) {
 Verdict judge(const Recording& recording, const ConfigurationSpace& space, const Expectations& expected,
               const ForceLimits& limits, const std::function<void(double)>& progress) {
   const RecordedRun run(recording, space);
-  RunWatch watch(run, limits);
+  RunMonitor watch(run, limits);
   for (std::size_t k = 0; k < run.size(); ++k) {
     if (progress && k % Recording::block == 0)
       progress(static_cast<double>(k) / static_cast<double>(run.size()));

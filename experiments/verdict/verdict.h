@@ -8,12 +8,12 @@
 
 #include "systems/signals/drive_check_status.h"
 #include "systems/signals/followed_task.h"
-#include "systems/signals/imu_doubt.h"
+#include "systems/signals/imu_fault.h"
 
 namespace flinch {
 
 class ConfigurationSpace;
-class RunWatch;
+class RunMonitor;
 struct Recording;
 
 /// A force limit for contact with a person. These defaults are the values that [SafePR] quotes for the hand
@@ -176,7 +176,7 @@ struct Verdict {
   std::optional<double> largest_torque;    ///< that any drive was told [Nm or N]; none: none was, or recorded
   std::string fault;                       ///< why the torque gate closed; "" if it did not
   /// The first doubt about the IMU, and when it came up [s]; none: it was believed.
-  ImuDoubt imu_doubt = ImuDoubt::none;
+  ImuFault imu_doubt = ImuFault::none;
   double imu_doubted = 0.0;
   std::optional<Return> returned;            ///< none: no operator has reset an interrupted robot
   std::optional<double> passive_lost;        ///< when the passive encoders were lost [s]; none: they were not
@@ -202,6 +202,6 @@ Verdict judge(const Recording& recording, const ConfigurationSpace& space, const
 std::string lateness_sentence(const Verdict& verdict);
 
 /// The same for a run that was watched, up to the sample seen last.
-Verdict judge(const RunWatch& watch, const Expectations& expected);
+Verdict judge(const RunMonitor& watch, const Expectations& expected);
 
 }  // namespace flinch

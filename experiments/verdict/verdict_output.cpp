@@ -143,7 +143,7 @@ std::string classified_line(const ContactVerdict& contact) {
       fmt::format("  taken for {} after {:.1f} ms, with probability {:.3f}", contact.classified,
                   1e3 * (*contact.classified_at - contact.onset), contact.probability);
   if (contact.location_error) {
-    line += fmt::format("; at that moment placed {:.0f} mm off, force {:.0f} N off",
+    line += fmt::format("; at that moment placed {:.0f} mm off, the estimate of the force still {:.0f} N off",
                         1e3 * *contact.location_error, contact.force_error.value_or(0.0));
   }
   return line + several + "\n";
@@ -230,7 +230,7 @@ Json robot_json(const RunFacts& facts) {
 }
 
 Json imu_doubt_json(const Verdict& verdict) {
-  if (verdict.imu_doubt == ImuDoubt::none) return nullptr;
+  if (verdict.imu_doubt == ImuFault::none) return nullptr;
   return {{"kind", name(verdict.imu_doubt)}, {"since_s", verdict.imu_doubted}};
 }
 

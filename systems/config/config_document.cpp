@@ -116,7 +116,7 @@ ConfigDocument::ConfigDocument(std::string file, std::shared_ptr<const ConfigNod
   add_section(root_.get(), "", {&file_, root_->line});
 }
 
-ConfigSection& ConfigDocument::add_section(const ConfigNode* node, std::string path, ConfigPlace place) {
+ConfigSection& ConfigDocument::add_section(const ConfigNode* node, std::string path, SourceLocation place) {
   ConfigSection*& known = by_path_[path];
   if (known != nullptr) return *known;
   places_.emplace(path, Place{path, place});
@@ -218,14 +218,14 @@ std::vector<ReadValue> ConfigDocument::finish() {
 
 // ---------------------------------------------------------------- problems
 
-void ConfigDocument::add(ConfigPlace place, std::string key, const std::string& written,
+void ConfigDocument::add(SourceLocation place, std::string key, const std::string& written,
                          const std::string& complaint, bool consequence) {
   std::string text = place.text() + ": ";
   if (!written.empty()) text += written + ": ";
   problems_.push_back({place, std::move(key), text + complaint, consequence});
 }
 
-void ConfigDocument::add_wrong_key(ConfigPlace place, std::string key, const std::string& written,
+void ConfigDocument::add_wrong_key(SourceLocation place, std::string key, const std::string& written,
                                    const std::string& complaint) {
   add(place, std::move(key), written, complaint);
   problems_.back().of_key = true;
@@ -273,7 +273,7 @@ void ConfigDocument::report_missing(const ConfigSection& section) {
 }
 
 // A value that another file gave stands there; its key, in this file.
-ConfigPlace ConfigDocument::place_of(const ConfigSection& section, const ConfigNode::Entry& entry) const {
+SourceLocation ConfigDocument::place_of(const ConfigSection& section, const ConfigNode::Entry& entry) const {
   const auto& given = entry.value->file;
   if (given && *given != *section.place.file) return {given.get(), entry.value->line};
   return {section.place.file, entry.line};

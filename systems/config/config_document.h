@@ -27,7 +27,7 @@ struct WantedKey {
 };
 
 /// Where something stands: a file, or what else gave it, and a line; 0: none.
-struct ConfigPlace {
+struct SourceLocation {
   const std::string* file = nullptr;  ///< Lives as long as the document.
   int line = 0;
 
@@ -38,7 +38,7 @@ struct ConfigPlace {
 struct ConfigSection {
   const ConfigNode* node = nullptr;  ///< Null: the file does not have it, and nothing in it is required.
   std::string path;                  ///< "legs[1]"; empty for the whole file.
-  ConfigPlace place;
+  SourceLocation place;
   std::vector<WantedKey> wanted;
   std::vector<char> taken;  ///< One for each entry: 1 once it was asked for.
 
@@ -51,7 +51,7 @@ struct FoundValue {
   const KeyUnit* unit = nullptr;     ///< In which it was written.
   std::string key;                   ///< Path without unit.
   std::string written;               ///< Path as in the file.
-  ConfigPlace place;
+  SourceLocation place;
 };
 
 /// A file while it is read: its sections, the values that were read, and all problems so far. The engine
@@ -63,7 +63,7 @@ class ConfigDocument {
   const std::string& file() const { return file_; }
   ConfigSection& root() { return sections_.front(); }
   /// The mapping at a path, null for one that is not in the file. Its address stays the same.
-  ConfigSection& add_section(const ConfigNode* node, std::string path, ConfigPlace place);
+  ConfigSection& add_section(const ConfigNode* node, std::string path, SourceLocation place);
 
   /// Finds and takes the value called `name`, in any unit of that quantity. Absent and required is a problem.
   /// `words`: those that may stand there, if they are few.
@@ -88,7 +88,7 @@ class ConfigDocument {
 
  private:
   struct Problem {
-    ConfigPlace place;
+    SourceLocation place;
     std::string key;   ///< Without unit.
     std::string text;  ///< With place and key.
     bool consequence = false;
@@ -96,18 +96,18 @@ class ConfigDocument {
   };
   struct Place {
     std::string written;
-    ConfigPlace at;
+    SourceLocation at;
   };
 
-  void add(ConfigPlace place, std::string key, const std::string& written, const std::string& complaint,
+  void add(SourceLocation place, std::string key, const std::string& written, const std::string& complaint,
            bool consequence = false);
-  void add_wrong_key(ConfigPlace place, std::string key, const std::string& written,
+  void add_wrong_key(SourceLocation place, std::string key, const std::string& written,
                      const std::string& complaint);
   void report_repeated(ConfigSection& section);
   void report_left_over(ConfigSection& section);
   void report_missing(const ConfigSection& section);
   Place place_of(std::string key) const;
-  ConfigPlace place_of(const ConfigSection& section, const ConfigNode::Entry& entry) const;
+  SourceLocation place_of(const ConfigSection& section, const ConfigNode::Entry& entry) const;
   std::set<std::string> keys_of_causes() const;
 
   std::string file_;

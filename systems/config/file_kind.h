@@ -9,7 +9,7 @@
 namespace flinch {
 
 /// What a YAML file of flinch is.
-enum class FileKind { parameters, mapping, scenario, campaign, robot, data_spec };
+enum class FileKind { parameters, mapping, scenario, campaign, robot, data_spec, figures };
 
 /// The kind of a file, told by keys that only files of that kind have; none: by its keys it may be any.
 /// Throws SetupError where it cannot be read.

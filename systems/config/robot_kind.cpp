@@ -21,7 +21,7 @@ namespace {
 std::vector<RobotKind>& kinds() {
   static std::vector<RobotKind> all = {
       {"planar_3rrr", read_planar_rrr,
-       std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none))},
+       std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none))},
       {"five_bar", read_five_bar, std::make_shared<const FiveBar>(five_bar_robot())},
       {"hexapod_6ups", read_hexapod, std::make_shared<const Hexapod>(hexapod_robot())},
       {"legs", read_legs, nullptr, begin_limits_of_legs}};

@@ -11,11 +11,11 @@ ContactPeriod::ContactPeriod(Time same_contact) : same_contact_(same_contact) {
 ContactPeriod::Memory ContactPeriod::advance(Time now, const ContactDetection& contact,
                                              const ResetCommand& command, const Memory& last) const {
   Memory next = command.reset ? Memory() : last;
-  const bool noticed = contact.valid && contact.present_level != ContactLevel::none;
-  if (noticed) {
-    next.noticed = now;
+  const bool detected = contact.valid && contact.present_level != ContactLevel::none;
+  if (detected) {
+    next.detected = now;
     if (!next.phase.active) next.phase = {.active = true, .since = now};
-  } else if (now - next.noticed > same_contact_) {
+  } else if (now - next.detected > same_contact_) {
     next.phase.active = false;
   }
   return next;

@@ -13,7 +13,7 @@ class ContactPeriod final : public System {
  public:
   struct Memory {
     ContactPhase phase;
-    Time noticed{};  ///< last tick at which the detector detected it
+    Time detected{};  ///< last tick at which the detector detected it
   };
 
  private:

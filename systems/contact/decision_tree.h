@@ -17,7 +17,7 @@ struct DecisionTreeSettings {
   double parallel = 0.61086524;  ///< epsilon_alpha, 35 degrees: between force and last link [rad]
   double clamping_elbow = 2.26892803;  ///< 130 degrees: beyond, a leg may clamp something [rad]
   /// Shares of answers that are right, by what they name, of contacts of which as many are meant for the
-  /// platform, first links, second links and gaps: measured on realistic robots of the planar bench by
+  /// platform, first links, second links and gaps: measured on realistic robots of the planar rig by
   /// tests/campaign/isolation, which prints and checks them.
   double right_of_platform = 0.99;  ///< 116 of 116
   double right_of_link1 = 0.57;     ///< 490 of 854

@@ -84,7 +84,7 @@ void add_evidence(const ContactClasses& classes, const ContactEvidence& evidence
 }
 
 /// How the contact has come about, as a leg has felt it.
-void add_course(const LegCourse& course, Column& column) {
+void add_course(const LegHistory& course, Column& column) {
   for (const LegMoment& moment : course.moments) {
     for (const double force : {moment.link1_force, moment.link2_force, moment.other_force})
       column.add(std::asinh(force / 5.0));
@@ -128,7 +128,7 @@ std::vector<FeatureName> evidence_feature_names() {
     for (const char* what : {"best_of_others", "least_residual"}) add(when + what);
   }
   add("log_total_force");
-  for (const Time age : course_ages) {
+  for (const Time age : history_ages) {
     const std::string when = "_" + std::to_string(age / 1ms) + "ms_ago";
     for (const char* what : {"link1_force", "link2_force", "other_force", "link1_speed", "link2_speed"})
       add(what + when);

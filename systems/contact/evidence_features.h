@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "systems/contact/feature_extraction.h"
-#include "systems/contact/leg_course.h"
+#include "systems/contact/leg_history.h"
 #include "systems/contact/neural_network.h"
 #include "systems/signals/contact_classes.h"
 
@@ -25,7 +25,7 @@ struct SeenContact {
 void evidence_features(const ContactClasses& classes, const SeenContact& seen,
                        NeuralNetwork::Values& columns) noexcept;
 
-inline constexpr int evidence_feature_count = 60 + 5 * static_cast<int>(course_ages.size());
+inline constexpr int evidence_feature_count = 60 + 5 * static_cast<int>(history_ages.size());
 
 /// What the rows of `evidence_features` are.
 std::vector<FeatureName> evidence_feature_names();

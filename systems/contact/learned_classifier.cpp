@@ -32,13 +32,13 @@ LearnedClassifier::LearnedClassifier(std::shared_ptr<const ParallelRobot> robot,
 
 void LearnedClassifier::classify(Time now, const ContactPhase& contact, const Kinematics& pose,
                                  const ContactEvidence& seen, const ContactEvidence& growth,
-                                 const ContactCourse& how, const ContactClassification& last,
+                                 const ContactWindow& how, const ContactClassification& last,
                                  ContactClassification& result) const {
   result = contact.active && !contact.begins(now) ? last : ContactClassification();
   const bool is_told = contact.active && now - contact.since <= settings_.window && pose.valid &&
                        seen.valid && growth.valid && how.valid;
   if (!is_told) return;
-  const auto courses = leg_courses(*robot_, pose, how.moments);
+  const auto courses = leg_histories(*robot_, pose, how.moments);
   if (!courses) return;
   NeuralNetwork::Values features, probability;
   const double force = how.moments.front().wrench_in_base.head(robot_->space().translations()).norm();

@@ -6,8 +6,8 @@
 #include "systems/framework/system.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/contact_classes.h"
-#include "systems/signals/contact_course.h"
 #include "systems/signals/contact_phase.h"
+#include "systems/signals/contact_window.h"
 
 namespace flinch {
 
@@ -37,7 +37,7 @@ class LearnedClassifier final : public System {
   InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
   InputPort<ContactEvidence> evidence = input<ContactEvidence>("evidence");
   InputPort<ContactEvidence> growth_evidence = input<ContactEvidence>("growth_evidence");
-  InputPort<ContactCourse> course = input<ContactCourse>("course");  ///< of the wrench that they are of
+  InputPort<ContactWindow> course = input<ContactWindow>("course");  ///< of the wrench that they are of
   OutputPort<ContactClassification> classification = output<&LearnedClassifier::classify>(
       "classification", clock, phase, kinematics, evidence, growth_evidence, course, last_);
 
@@ -45,7 +45,7 @@ class LearnedClassifier final : public System {
   Update remember_ = keep(last_, classification);
 
   void classify(Time now, const ContactPhase& contact, const Kinematics& pose, const ContactEvidence& seen,
-                const ContactEvidence& growth, const ContactCourse& how, const ContactClassification& last,
+                const ContactEvidence& growth, const ContactWindow& how, const ContactClassification& last,
                 ContactClassification& result) const;
 
   std::shared_ptr<const ParallelRobot> robot_;

@@ -6,9 +6,9 @@ namespace flinch {
 
 void MaxDetector::choose(const ContactDetection& one, const ContactDetection& other,
                          ContactDetection& result) const {
-  const bool other_noticed = other.level != ContactLevel::none;
+  const bool other_detected = other.level != ContactLevel::none;
   const bool other_was_first =
-      other_noticed && (one.level == ContactLevel::none || other.detected < one.detected);
+      other_detected && (one.level == ContactLevel::none || other.detected < one.detected);
   result = other_was_first ? other : one;
   result.valid = one.valid || other.valid;
   result.level = std::max(one.level, other.level);

@@ -56,7 +56,7 @@ void see_hold(const DriveLoad& then, const DriveLoad& fresh, const LoadHistory& 
   level.slope = (after->torque - before->torque) / to_seconds(hold);
   if (then.acquired == after->acquired) return;
   const bool torque_unknown = sampling.lost_between(before->acquired, after->acquired);
-  const double doubt = torque_unknown ? 1.0 : driven_doubt(then.acquired - before->acquired);
+  const double doubt = torque_unknown ? 1.0 : driven_uncertainty(then.acquired - before->acquired);
   level.rising = doubt * (after->torque - before->torque);
 }
 

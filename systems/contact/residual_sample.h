@@ -18,8 +18,8 @@ struct DriveResidual {
   JointVector torque;    ///< of the drives
   JointVector friction;  ///< that the model expects
   JointVector slope;     ///< of the torque [Nm/s or N/s]
-  JointVector rising;    ///< of the torque, by which the drives may have gone further, see `driven_doubt`
-  JointVector rest;  ///< how far the drive stands still, 0 to 1: what it then holds by friction is unknown
+  JointVector rising;  ///< of the torque, by which the drives may have gone further, see `driven_uncertainty`
+  JointVector rest;    ///< how far the drive stands still, 0 to 1: what it then holds by friction is unknown
 };
 
 /// A residual as it is, what of it is new, and what lasts. All of it was acquired at one time.

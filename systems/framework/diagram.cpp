@@ -26,7 +26,7 @@ void Diagram::run_timed(std::span<const Call> calls, std::byte* memory, BlockPro
 
 void Diagram::evaluate(Context& context, BlockProfile* profile) const {
   std::byte* memory = context.memory();
-  for (const Turns& turns : kept_outputs_) turns.begin(memory);
+  for (const DoubleBuffer& turns : kept_outputs_) turns.begin(memory);
   const std::span<const Call> calls = outputs_in_order_;
   std::size_t next = 0;
   for (const HeldOutputs& held : held_outputs_) {
@@ -34,11 +34,11 @@ void Diagram::evaluate(Context& context, BlockProfile* profile) const {
     next = held.end;
     bool& computed = internal::at<bool>(memory, held.computed);
     if (is_due(held, context)) {
-      for (const Turns& turns : held.turns) turns.begin(memory);
+      for (const DoubleBuffer& turns : held.turns) turns.begin(memory);
       run(calls.subspan(held.begin, held.end - held.begin), memory, profile);
       computed = true;
     } else if (computed) {  // by an evaluation of this tick before, which no longer counts
-      for (const Turns& turns : held.turns) turns.stay(memory);
+      for (const DoubleBuffer& turns : held.turns) turns.stay(memory);
       computed = false;
     }
   }
@@ -58,12 +58,12 @@ void Diagram::update(Context& context, BlockProfile* profile) const {
   for (const UpdateGroup& group : update_groups_) {
     if (!context.due(group.every)) continue;
     for (const Copy& copy : group.copies) copy.type->copy_assign(copy.to.in(memory), copy.from.in(memory));
-    for (const Turns& turns : group.kept) turns.end(memory);
+    for (const DoubleBuffer& turns : group.kept) turns.end(memory);
   }
   for (const HeldOutputs& held : held_outputs_) {
     bool& computed = internal::at<bool>(memory, held.computed);
     if (!computed) continue;
-    for (const Turns& turns : held.turns) turns.end(memory);
+    for (const DoubleBuffer& turns : held.turns) turns.end(memory);
     computed = false;
   }
   context.complete_tick();
@@ -88,7 +88,7 @@ void Diagram::set_continuous(Context& context, std::span<const double> numbers) 
 }
 
 void Diagram::begin_step(Context& context, BlockProfile* profile) const {
-  for (const Turns& turns : kept_in_step_) turns.begin(context.memory());
+  for (const DoubleBuffer& turns : kept_in_step_) turns.begin(context.memory());
   run(constant_in_step_, context.memory(), profile);
 }
 

@@ -109,8 +109,8 @@ class Diagram : public System {
     PortId state;
     const ValueType* type;
     Place now;
-    std::optional<Place> next;   ///< where an update writes its next value, or a derivative its rate
-    std::optional<Turns> turns;  ///< with the output that it keeps
+    std::optional<Place> next;          ///< where an update writes its next value, or a derivative its rate
+    std::optional<DoubleBuffer> turns;  ///< with the output that it keeps
   };
   const Layout& layout() const { return layout_; }
   const std::vector<Wire>& wires() const { return wires_; }
@@ -139,14 +139,14 @@ class Diagram : public System {
     Place when;  ///< without `every`: the condition
     std::size_t begin;
     std::size_t end;
-    Place computed;            ///< whether they have been, since the tick before
-    std::vector<Turns> turns;  ///< each of the value held and the one computed
+    Place computed;                   ///< whether they have been, since the tick before
+    std::vector<DoubleBuffer> turns;  ///< each of the value held and the one computed
   };
   struct UpdateGroup {
     Every every;
     std::vector<Call> calls;
-    std::vector<Copy> copies;  ///< to the states that the calls compute, and from inputs that are kept
-    std::vector<Turns> kept;   ///< of the states that keep an output
+    std::vector<Copy> copies;        ///< to the states that the calls compute, and from inputs that are kept
+    std::vector<DoubleBuffer> kept;  ///< of the states that keep an output
   };
 
   void run(std::span<const Call> calls, std::byte* memory, BlockProfile* profile) const;
@@ -162,10 +162,10 @@ class Diagram : public System {
   std::vector<Place> places_;
   std::vector<Call> outputs_in_order_;
   std::vector<HeldOutputs> held_outputs_;
-  std::vector<Turns> kept_outputs_;  ///< of those that are not held
+  std::vector<DoubleBuffer> kept_outputs_;  ///< of those that are not held
   std::vector<UpdateGroup> update_groups_;
   std::vector<Call> constant_in_step_;
-  std::vector<Turns> kept_in_step_;  ///< those kept outputs that are computed again in a step
+  std::vector<DoubleBuffer> kept_in_step_;  ///< those kept outputs that are computed again in a step
   std::vector<Call> varying_in_step_;
   std::vector<Call> derivative_calls_;
   std::vector<StateCell> state_cells_;

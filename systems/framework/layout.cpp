@@ -18,8 +18,8 @@ std::uint32_t Layout::add(const ValueType& type, std::shared_ptr<const void> ini
   return cells_.back().offset;
 }
 
-Turns Layout::add_turns(const ValueType& type, std::shared_ptr<const void> now,
-                        std::shared_ptr<const void> next) {
+DoubleBuffer Layout::add_turns(const ValueType& type, std::shared_ptr<const void> now,
+                               std::shared_ptr<const void> next) {
   const std::uint32_t one = add(type, std::move(now));
   const std::uint32_t other = add(type, std::move(next));
   const auto add_word = [this](std::uint32_t offset) {

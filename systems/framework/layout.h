@@ -39,7 +39,8 @@ class Layout {
   /// Adds a value and returns its offset.
   std::uint32_t add(const ValueType& type, std::shared_ptr<const void> initial);
   /// Adds two cells that take turns: the first with the value `now`, the second with `next`.
-  Turns add_turns(const ValueType& type, std::shared_ptr<const void> now, std::shared_ptr<const void> next);
+  DoubleBuffer add_turns(const ValueType& type, std::shared_ptr<const void> now,
+                         std::shared_ptr<const void> next);
   /// Says that the value of `port` lies at `place`; several ports may share one.
   void put(PortId port, Place place) { places_[port] = place; }
 

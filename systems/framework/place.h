@@ -37,7 +37,7 @@ class Place {
 
 /// Two cells that take turns, so that a value becomes the state without being copied: in one lies what a
 /// state is now, in the other what it will be. Two words say which is which.
-struct Turns {
+struct DoubleBuffer {
   std::uint32_t now;    ///< the word that says where the state lies
   std::uint32_t next;   ///< the word that says where its next value lies, or is to be written
   std::uint32_t cells;  ///< the sum of the offsets of the two cells

@@ -83,7 +83,7 @@ class Scheduler {
   /// Output -> the state that keeps it, or none if it merely holds its value, and where both take turns.
   struct Kept {
     std::optional<PortId> state;
-    Turns turns;
+    DoubleBuffer turns;
   };
   std::unordered_map<PortId, Kept, PortIdHash> kept_;
 };

@@ -10,12 +10,12 @@
 namespace flinch {
 
 struct ControlledStopSettings {
-  /// D [Nms/rad] of every drive. With 0.58 kg m^2 at a drive of the bench it brakes with a time constant of
+  /// D [Nms/rad] of every drive. With 0.58 kg m^2 at a drive of the rig it brakes with a time constant of
   /// 29 ms, well damped behind a velocity filter of 30 Hz.
   double damping = 20.0;
   /// Below this speed of the fastest drive D falls with the speed [rad/s or m/s],
   double whole_from = 2.0;
-  /// to this share of it at rest: with 0.25 a hand of 15 N leads the bench at 0.1 m/s, friction included.
+  /// to this share of it at rest: with 0.25 a hand of 15 N leads the rig at 0.1 m/s, friction included.
   double share_at_rest = 1.0;
 };
 

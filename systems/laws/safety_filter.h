@@ -38,7 +38,7 @@ struct SafetyFilterSettings {
   };
   Use use = Use::after_contact;
 
-  PlaceLimits limits;  ///< where the robot is kept
+  PoseConstraints limits;  ///< where the robot is kept
   LimitMargins margins;
   double max_platform_speed = std::numeric_limits<double>::infinity();  ///< of its origin [m/s]
   double max_drive_speed = std::numeric_limits<double>::infinity();     ///< [rad/s or m/s]

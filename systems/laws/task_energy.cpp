@@ -34,8 +34,8 @@ double energy_of(const TaskGoal& goal, const Kinematics& kinematics, const Dynam
   return energy_with(Inertia(dynamics.M_x), goal, kinematics);
 }
 
-void TaskEnergyWatch::measure(const TaskList& list, const TaskList& kept, const ConstraintState& state,
-                              const Kinematics& at, const Dynamics& model, TaskEnergies& found) const {
+void TaskEnergyMonitor::measure(const TaskList& list, const TaskList& kept, const ConstraintState& state,
+                                const Kinematics& at, const Dynamics& model, TaskEnergies& found) const {
   found = {};
   if (!list.valid || !at.valid || !model.valid) return;
   found.valid = true;

@@ -20,15 +20,15 @@ double energy_of(const TaskGoal& goal, const Kinematics& kinematics, const Dynam
 
 /// Tells the Lyapunov functions of what a law on the torque level serves, to be recorded. Of all tasks
 /// together nothing is proven: a lower one may gain by what a higher one does.
-class TaskEnergyWatch final : public System {
+class TaskEnergyMonitor final : public System {
  public:
   InputPort<TaskList> tasks = input<TaskList>("tasks");
   InputPort<TaskList> constraint_goals = input<TaskList>("constraint_goals");
   InputPort<ConstraintState> constraints = input<ConstraintState>("constraints");
   InputPort<Kinematics> kinematics = input<Kinematics>("kinematics");
   InputPort<Dynamics> dynamics = input<Dynamics>("dynamics");
-  OutputPort<TaskEnergies> energies = output<&TaskEnergyWatch::measure>("energies", tasks, constraint_goals,
-                                                                        constraints, kinematics, dynamics);
+  OutputPort<TaskEnergies> energies = output<&TaskEnergyMonitor::measure>("energies", tasks, constraint_goals,
+                                                                          constraints, kinematics, dynamics);
 
  private:
   void measure(const TaskList& list, const TaskList& kept, const ConstraintState& state, const Kinematics& at,

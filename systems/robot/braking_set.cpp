@@ -26,14 +26,14 @@ double largest_rate(const JointVector& known, const JointVector& per_rate, doubl
   return largest >= least ? largest : -1.0;
 }
 
-bool is_inside(const Mechanism& robot, const Kinematics& at, const PlaceLimits& limits) {
+bool is_inside(const Mechanism& robot, const Kinematics& at, const PoseConstraints& limits) {
   return at.sigma_kappa <= limits.max_condition_number && is_within(limits.workspace, robot, at);
 }
 
 }  // namespace
 
 StraightStop straight_stop(const Mechanism& robot, const Kinematics& at, const Dynamics& dynamics,
-                           const PlaceLimits& limits, double max_torque) noexcept {
+                           const PoseConstraints& limits, double max_torque) noexcept {
   StraightStop stop;
   if (!at.valid || !dynamics.valid) return stop;
   const PlatformVector& v = at.velocity;

@@ -24,6 +24,6 @@ struct StraightStop {
 /// The way is looked at in ten places. Robots that can stop so are in the braking set of `limits`: who keeps
 /// them from there on need not exceed them. Nothing is possible where kinematics or dynamics are not valid.
 StraightStop straight_stop(const Mechanism& robot, const Kinematics& at, const Dynamics& dynamics,
-                           const PlaceLimits& limits, double max_torque) noexcept;
+                           const PoseConstraints& limits, double max_torque) noexcept;
 
 }  // namespace flinch

@@ -44,7 +44,7 @@ struct DriveParameters {
   double max_unseen_motion = 0.25 * std::numbers::pi / 180.0;
 };
 
-/// For `drives` drives of one kind: turning ones as the bench has them, sliding ones as screws of a hexapod
+/// For `drives` drives of one kind: turning ones as the rig has them, sliding ones as screws of a hexapod
 /// of the size of a table have.
 DriveParameters default_drives(DriveKind kind, int drives);
 

@@ -131,8 +131,9 @@ class Builder {
 
 }  // namespace
 
-void evaluate_barriers(const Mechanism& mechanism, const Kinematics& kinematics, const PlaceLimits& limits,
-                       const LimitMargins& margins, BarrierList& out) noexcept {
+void evaluate_barriers(const Mechanism& mechanism, const Kinematics& kinematics,
+                       const PoseConstraints& limits, const LimitMargins& margins,
+                       BarrierList& out) noexcept {
   out.count = 0;
   out.valid = kinematics.valid;
   if (!kinematics.valid) return;

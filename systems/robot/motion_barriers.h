@@ -11,7 +11,7 @@
 namespace flinch {
 
 /// Where a robot may be. Limits that allow everything have no barrier.
-struct PlaceLimits {
+struct PoseConstraints {
   WorkspaceLimits workspace;
   double max_condition_number = std::numeric_limits<double>::infinity();  ///< sigma_kappa
 };
@@ -60,7 +60,7 @@ struct BarrierList {
 /// The barriers of `limits`, `margins` inside of them, at this motion. sigma_kappa counts by its smooth upper
 /// bound; sigma_sc by the angles of the coupling joints where it follows from them, otherwise by the distance
 /// of the nearest links. Not valid, with as many barriers as could be told, where the kinematics is not.
-void evaluate_barriers(const Mechanism& mechanism, const Kinematics& kinematics, const PlaceLimits& limits,
-                       const LimitMargins& margins, BarrierList& out) noexcept;
+void evaluate_barriers(const Mechanism& mechanism, const Kinematics& kinematics,
+                       const PoseConstraints& limits, const LimitMargins& margins, BarrierList& out) noexcept;
 
 }  // namespace flinch

@@ -22,8 +22,8 @@ PlanarRrrLeg leg(double base_angle_degrees, double base_radius, double coupling_
   return leg;
 }
 
-std::array<PlanarRrrLeg, 3> legs(BenchGeometry geometry) {
-  if (geometry == BenchGeometry::individual) {
+std::array<PlanarRrrLeg, 3> legs(RigGeometry geometry) {
+  if (geometry == RigGeometry::individual) {
     return {leg(90.0, 0.6877, 0.0, 0.58152, 0.62002), leg(210.7631, 0.6922, 120.0, 0.58121, 0.61964),
             leg(330.4901, 0.6666, 240.0, 0.58215, 0.61975)};
   }
@@ -32,11 +32,11 @@ std::array<PlanarRrrLeg, 3> legs(BenchGeometry geometry) {
           leg(330.0, 0.6829, 240.0, nominal_link1_length, nominal_link2_length)};
 }
 
-void set_friction(BenchFriction friction, std::array<PlanarRrrLeg, 3>& legs) {
-  if (friction == BenchFriction::simulation) {
+void set_friction(RigFriction friction, std::array<PlanarRrrLeg, 3>& legs) {
+  if (friction == RigFriction::simulation) {
     for (PlanarRrrLeg& leg : legs) leg.active_friction.viscous = 1.0;
   }
-  if (friction != BenchFriction::test_bench) return;
+  if (friction != RigFriction::test_rig) return;
 
   // Identified with one former torque constant for all drives, and rescaled to those of today [Nm/A].
   constexpr double former = 11.3;
@@ -52,7 +52,7 @@ void set_friction(BenchFriction friction, std::array<PlanarRrrLeg, 3>& legs) {
 
 }  // namespace
 
-PlanarRrrParameters bench_robot(BenchGeometry geometry, BenchFriction friction) {
+PlanarRrrParameters rig_robot(RigGeometry geometry, RigFriction friction) {
   PlanarRrrParameters robot;
   robot.name = "planar 3-RRR bench";
   robot.legs = legs(geometry);
@@ -65,14 +65,14 @@ PlanarRrrParameters bench_robot(BenchGeometry geometry, BenchFriction friction) 
   return robot;
 }
 
-LinkBody bench_link1() {
+LinkBody rig_link1() {
   constexpr double mass = 2.272;
   return {.mass = mass,
           .centre_of_mass = 0.29,
           .inertia = mass * nominal_link1_length * nominal_link1_length / 12.0};
 }
 
-LinkBody bench_link2() {
+LinkBody rig_link2() {
   constexpr double mass = 0.75;
   return {.mass = mass,
           .centre_of_mass = 0.311,

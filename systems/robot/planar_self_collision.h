@@ -10,7 +10,7 @@
 ///   sigma_sc = sqrt(3) r_c                              where no |omega_j| exceeds 60 degrees
 ///   sigma_sc = sqrt(3) r_c cos(max |omega_j| - 60 deg)  beyond
 ///
-/// exact wherever sigma_sc > 0.1 m on the bench. So sigma_sc >= s is the same as omega_j <= omega_max(s) for
+/// exact wherever sigma_sc > 0.1 m on the rig. So sigma_sc >= s is the same as omega_j <= omega_max(s) for
 /// every leg: smooth functions without plateau and ties. Only positive omega_j come near.
 namespace flinch {
 

@@ -4,7 +4,7 @@
 
 #include "systems/framework/system.h"
 #include "systems/safety/fault_table.h"
-#include "systems/safety/recovery_watch.h"
+#include "systems/safety/recovery_monitor.h"
 
 namespace flinch {
 
@@ -16,8 +16,8 @@ struct FaultMonitorMemory {
   Time drives = never;
   TorqueCommand last_command;
   TorqueCommand command;
-  EncoderWatch encoders;
-  RecoveryWatch recovery;
+  EncoderMonitor encoders;
+  RecoveryMonitor recovery;
 };
 
 /// Looks for every fault of the fault table, every tick, for the torque gate, and says which of them a

@@ -9,7 +9,7 @@
 #include "systems/framework/time.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/robot/workspace_limits.h"
-#include "systems/safety/encoder_watch.h"
+#include "systems/safety/encoder_monitor.h"
 #include "systems/signals/contact_detection.h"
 #include "systems/signals/drive_check_status.h"
 #include "systems/signals/drive_reading.h"
@@ -27,7 +27,7 @@
 
 namespace flinch {
 
-/// Where a fault begins. The defaults are those of the bench.
+/// Where a fault begins. The defaults are those of the rig.
 struct FaultLimits {
   Time max_lateness = 2ms;  ///< of a tick, in real time
   Time longest_gap = 2ms;   ///< without a usable sample; the filters hold their last one as long
@@ -37,7 +37,7 @@ struct FaultLimits {
   /// at which the robot is stopped: left for the stamps to be off by a third of a millisecond. Noise is 1e-5
   /// rad.
   double max_encoder_rate = 12.0;  ///< [rad/s]
-  /// An encoder may repeat itself to the last bit for as long, whatever it should have seen. The bench's
+  /// An encoder may repeat itself to the last bit for as long, whatever it should have seen. The rig's
   /// noise of 33 increments alone makes six equal readings a matter of 1e-10.
   Time longest_repetition = 5ms;
   /// And for longer, if the passive encoders have not left it by more than ten of their increments meanwhile,
@@ -83,7 +83,7 @@ struct Evidence {
   const DriveReading& drives;
   Time station_gap, joints_gap, drives_gap;  ///< since their last usable sample
 
-  const EncoderWatch& encoders;
+  const EncoderMonitor& encoders;
   const JointMotion& motion;
   const PlatformMotion& platform;
   const WorkspaceMeasures& measures;

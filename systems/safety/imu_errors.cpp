@@ -269,7 +269,7 @@ bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSp
   return false;
 }
 
-ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept {
+ImuFault explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept {
   Fit<6> constant;
   Fit<1> delay;
   RotationFit rotation;
@@ -288,11 +288,11 @@ ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept 
   const double price = std::log(6.0 * std::max(samples, 1));
   const std::array<double, 3> cost{constant.left() + 6.0 * price, rotation.left() + 3.0 * price,
                                    delay.left() + price};
-  constexpr std::array doubts{ImuDoubt::biased, ImuDoubt::turned, ImuDoubt::late};
+  constexpr std::array doubts{ImuFault::biased, ImuFault::turned, ImuFault::late};
   const auto best = std::min_element(cost.begin(), cost.end());
   constexpr int few = 3;  // jumps of a unit that is contradicted anyway
   if (*best > 0.5 * constant.squares + 6.0 * price)
-    return jumped_lately(errors) >= few ? ImuDoubt::noisy : ImuDoubt::contradicted;
+    return jumped_lately(errors) >= few ? ImuFault::noisy : ImuFault::contradicted;
   return doubts[static_cast<std::size_t>(best - cost.begin())];
 }
 

@@ -5,7 +5,7 @@
 
 #include "systems/framework/time.h"
 #include "systems/safety/ring.h"
-#include "systems/signals/imu_doubt.h"
+#include "systems/signals/imu_fault.h"
 
 namespace flinch {
 
@@ -90,6 +90,6 @@ bool is_late(const ImuErrors& errors, const EncoderSpread& encoders, const ImuSp
 /// turned; each fitted by least squares, and judged by its squares left plus ln(n) for each parameter (the
 /// Bayesian information criterion). None that leaves more than half of the squares is an explanation; without
 /// one the unit is noisy where three of its last twelve samples have jumped.
-ImuDoubt explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept;
+ImuFault explanation(const ImuErrors& errors, const ImuSpread& spread) noexcept;
 
 }  // namespace flinch

@@ -10,7 +10,7 @@
 
 namespace flinch {
 
-/// Where a reading begins to contradict others. The defaults are those of the bench. Noise is learned while
+/// Where a reading begins to contradict others. The defaults are those of the rig. Noise is learned while
 /// the brakes hold the robot before it moves for the first time.
 struct PlausibilityLimits {
   Time period = 1ms;  ///< from tick to tick of the control path

@@ -46,8 +46,8 @@ bool has_learned(const PlausibilityMemory& memory, const PlausibilityTick& tick)
 }
 
 /// Whether a unit with this doubt still measures what happens to it.
-bool tells_motion(ImuDoubt doubt) {
-  return doubt != ImuDoubt::dropped_out && doubt != ImuDoubt::frozen && doubt != ImuDoubt::saturated;
+bool tells_motion(ImuFault doubt) {
+  return doubt != ImuFault::dropped_out && doubt != ImuFault::frozen && doubt != ImuFault::saturated;
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ void PlausibilityMonitor::advance(Time now, const PlausibilityMemory& last, cons
     flinch::advance(next.response, next.angles.unexplained(), next.angles.mean_interval(), acts,
                     next.angles.rates(), tick, next.found);
   flinch::advance(next.currents, tick, next.found);
-  if (command.reset || done.reset) next.imu = ImuWatch();
+  if (command.reset || done.reset) next.imu = ImuMonitor();
   flinch::advance(next.imu, past.imu, next.inertial, next.angles, tick, next.found);
   // Without passive encoders nothing else tells the motion: then it may be the encoders that lie.
   const bool is_alone = next.passive_seen == 0 || last.found.passive_lost;

@@ -3,13 +3,13 @@
 #include <memory>
 
 #include "systems/framework/system.h"
-#include "systems/safety/current_watch.h"
-#include "systems/safety/imu_watch.h"
-#include "systems/safety/inertial_watch.h"
-#include "systems/safety/parity_watch.h"
-#include "systems/safety/response_watch.h"
-#include "systems/safety/rest_watch.h"
-#include "systems/safety/status_watch.h"
+#include "systems/safety/current_monitor.h"
+#include "systems/safety/imu_monitor.h"
+#include "systems/safety/inertial_monitor.h"
+#include "systems/safety/parity_monitor.h"
+#include "systems/safety/response_monitor.h"
+#include "systems/safety/rest_monitor.h"
+#include "systems/safety/status_monitor.h"
 #include "systems/signals/brake_command.h"
 #include "systems/signals/reset_command.h"
 #include "systems/signals/station_status.h"
@@ -18,14 +18,14 @@ namespace flinch {
 
 /// What the plausibility monitor remembers.
 struct PlausibilityMemory {
-  AngleWatch angles;
-  CurrentWatch currents;
-  InertialWatch inertial;
-  ImuWatch imu;
-  ParityWatch parity;
-  RestWatch rest;
-  StatusWatch status;
-  ResponseWatch response;
+  AngleMonitor angles;
+  CurrentMonitor currents;
+  InertialMonitor inertial;
+  ImuMonitor imu;
+  ParityMonitor parity;
+  RestMonitor rest;
+  StatusMonitor status;
+  ResponseMonitor response;
   Time looked{};                             ///< the last tick at which anybody looked
   JointVector torque, torque_before;         ///< commanded in the two ticks before [Nm]; empty: none
   int free = 0;                              ///< ticks since the brakes have opened
@@ -38,9 +38,9 @@ struct PlausibilityMemory {
 
 /// The long rings of what it remembers.
 struct PlausibilityPast {
-  InertialWatch::Motions::Past points{};
-  ImuWatch::Past imu{};
-  RestWatch::Driven::Past driven{};
+  InertialMonitor::Motions::Past points{};
+  ImuMonitor::Past imu{};
+  RestMonitor::Driven::Past driven{};
 };
 
 /// What the gate has done at the tick before.

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "systems/safety/imu_watch.h"
+#include "systems/safety/imu_monitor.h"
 
 namespace flinch {
 
 /// The motions in a row, one for each look.
-struct TickMotions : Series<TickMotion, ImuWatch::kept> {
-  TickMotions(const ImuWatch::Motions& ring, const ImuWatch::Motions::Past& past,
+struct TickMotions : Series<TickMotion, ImuMonitor::kept> {
+  TickMotions(const ImuMonitor::Motions& ring, const ImuMonitor::Motions::Past& past,
               const PlausibilityTick& tick)
       : Series(ring, past),
         period(tick.period),

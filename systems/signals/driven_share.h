@@ -18,7 +18,7 @@ constexpr double driven_share(Time since_tick) {
 }
 
 /// By how much they may have gone further, or less far.
-constexpr double driven_doubt(Time since_tick) { return 1.0 - driven_share(since_tick); }
+constexpr double driven_uncertainty(Time since_tick) { return 1.0 - driven_share(since_tick); }
 
 /// What `driven_share` adds up to since the tick [s].
 constexpr double driven_time(Time since_tick) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "systems/signals/gate_fault.h"
-#include "systems/signals/imu_doubt.h"
+#include "systems/signals/imu_fault.h"
 
 namespace flinch {
 
@@ -45,7 +45,7 @@ struct Plausibility {
   int drive = -1;             ///< of which drive, from 0, where one is known
   bool passive_lost = false;  ///< the passive encoders have been there and are no more
   bool imu_lost = false;      ///< likewise
-  ImuDoubt imu_doubt = ImuDoubt::none;
+  ImuFault imu_doubt = ImuFault::none;
   bool imu_left_out = false;  ///< nobody is told its present sample
   bool learning = false;      ///< noise is still being learned, before the first motion
   CheckMask askable = 0;      ///< what each of them needs is there: sensors, and what was learned of them

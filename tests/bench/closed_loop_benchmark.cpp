@@ -25,7 +25,7 @@
 #include "systems/robot/quantity_units.h"
 #include "tests/support/processor_time.h"
 #ifdef FLINCH_HAS_MUJOCO
-#include "tests/peer/mujoco_bench.h"
+#include "tests/peer/mujoco_rig.h"
 #endif
 
 namespace flinch {
@@ -85,9 +85,9 @@ class ClosedLoop {
 
 #ifdef FLINCH_HAS_MUJOCO
 /// MuJoCo's model of the bench, swinging freely from a moving start.
-class FreeBench {
+class FreeRig {
  public:
-  FreeBench() : mujoco_(parameters(), bench_link1(), bench_link2()) {
+  FreeRig() : mujoco_(parameters(), rig_link1(), rig_link2()) {
     mujoco_.model()->opt.tolerance =
         1e-8;  // MuJoCo's own defaults, not those of the comparison of accelerations
     mujoco_.model()->opt.iterations = 100;
@@ -100,9 +100,7 @@ class FreeBench {
   }
 
  private:
-  static PlanarRrrParameters parameters() {
-    return bench_robot(BenchGeometry::nominal, BenchFriction::simulation);
-  }
+  static PlanarRrrParameters parameters() { return rig_robot(RigGeometry::nominal, RigFriction::simulation); }
 
   void restart() {
     const Eigen::Vector3d pose(0.0, 0.0, 0.0), velocity(0.3, 0.2, 0.5);
@@ -114,7 +112,7 @@ class FreeBench {
                       three(at.rates.active), three(at.rates.passive));
   }
 
-  peer::MujocoBench mujoco_;
+  peer::MujocoRig mujoco_;
   int ticks_ = 0;
 };
 #endif
@@ -131,7 +129,7 @@ void ClosedLoopMillisecond(benchmark::State& state, SimulatedScenario (*scenario
   ClosedLoop loop(scenario(name));
   Seconds ours{}, worst{};
 #ifdef FLINCH_HAS_MUJOCO
-  FreeBench bench;
+  FreeRig bench;
   Seconds theirs{};
 #endif
   for (auto unused : state) {

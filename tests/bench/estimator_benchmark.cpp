@@ -24,7 +24,7 @@ namespace {
 
 std::shared_ptr<const PlanarRrr> bench() {
   static const auto robot =
-      std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+      std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
   return robot;
 }
 
@@ -85,9 +85,9 @@ class Sources final : public System {
 };
 
 /// One estimator and what feeds it; without a name what feeds it alone.
-class EstimatorBench {
+class EstimatorRig {
  public:
-  explicit EstimatorBench(const std::string& name) : ticking_(wire(name)) {}
+  explicit EstimatorRig(const std::string& name) : ticking_(wire(name)) {}
 
   void tick() {
     const Time now = ticking_.now();
@@ -143,7 +143,7 @@ class EstimatorBench {
 };
 
 void EstimatorTick(benchmark::State& state, const std::string& name) {
-  EstimatorBench tested(name), observer("momentum_observer"), sources("");
+  EstimatorRig tested(name), observer("momentum_observer"), sources("");
   for (auto unused : state) tested.tick();
   const double nothing = sources.time_of_a_tick();
   state.counters["times_the_momentum_observer"] =

@@ -25,7 +25,7 @@ namespace {
 
 struct Touch {
   std::shared_ptr<const PlanarRrr> robot =
-      std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+      std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
   Kinematics k = [this] {
     Kinematics now;
     robot->kinematics(robot->home_pose(), PlatformVector{{0.5, 0.2, 0.3}}, now);
@@ -142,14 +142,14 @@ void LearnedClassifierOfAWrench(benchmark::State& state) {
   const NeuralNetwork scorer = network(evidence_feature_count, {80, 48, 1}, NetworkResult::softmax_of_rows);
   const PlatformVector grown = 0.9 * touch.wrench;
   const PlatformMatrix of_grown = WrenchUncertainty().covariance(touch.robot->space(), grown);
-  CourseMoments moments;
+  ContactMoments moments;
   moments.fill({0.5 * touch.wrench, touch.k.velocity});
   ContactEvidence whole, growth;
   NeuralNetwork::Values features, outputs;
   compare(state, touch, [&] {
     hypotheses.weigh(touch.k, touch.wrench, touch.covariance, whole);
     hypotheses.weigh(touch.k, grown, of_grown, growth);
-    const LegCourses courses = leg_courses(*touch.robot, touch.k, moments).value();
+    const LegCourses courses = leg_histories(*touch.robot, touch.k, moments).value();
     evidence_features(hypotheses.classes(), {whole, growth, courses, 50.0}, features);
     benchmark::DoNotOptimize(scorer.evaluate(features, outputs));
   });

@@ -19,7 +19,7 @@
 #include "systems/framework/constant.h"
 #include "systems/laws/safety_filter.h"
 #include "systems/robot/forward_dynamics.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/smooth_trajectory.h"
 #include "tests/support/ticking.h"
 
@@ -27,7 +27,7 @@ namespace flinch {
 namespace {
 
 std::shared_ptr<const PlanarRrr> bench() {
-  static const auto robot = test::planar_bench(BenchFriction::test_bench);
+  static const auto robot = test::planar_rig(RigFriction::test_rig);
   return robot;
 }
 
@@ -88,10 +88,9 @@ SafetyFilterSettings strict_limits() {
 }
 
 /// One law and what feeds it; without a name what feeds it alone.
-class LawBench {
+class LawRig {
  public:
-  explicit LawBench(const std::string& name, Limits limits = Limits::not_kept,
-                    const Path& path = smooth_path())
+  explicit LawRig(const std::string& name, Limits limits = Limits::not_kept, const Path& path = smooth_path())
       : path_(path), ticking_(wire(name, limits)) {}
 
   void tick() {
@@ -180,7 +179,7 @@ class LawBench {
 };
 
 void ReactionLawTick(benchmark::State& state, const std::string& name) {
-  LawBench tested(name), retraction("retraction"), sources("");
+  LawRig tested(name), retraction("retraction"), sources("");
   for (auto unused : state) tested.tick();
   const double nothing = sources.time_of_a_tick();
   state.counters["times_the_retraction"] =
@@ -188,7 +187,7 @@ void ReactionLawTick(benchmark::State& state, const std::string& name) {
 }
 
 void StrictLevelTick(benchmark::State& state) {
-  LawBench strict("torque_reaction", Limits::kept), soft("torque_reaction"), sources("");
+  LawRig strict("torque_reaction", Limits::kept), soft("torque_reaction"), sources("");
   for (auto unused : state) strict.tick();
   const double nothing = sources.time_of_a_tick();
   state.counters["times_the_torque_level"] =
@@ -254,7 +253,7 @@ void StrictLevelAtItsLimits(benchmark::State& state) {
   for (auto unused : state) {
     for (unsigned seed = 0; seed < paths; ++seed) {
       const Path path = RobotBetweenLimits(seed).drive(ticks);
-      LawBench kept("torque_reaction", Limits::kept, path), free("torque_reaction", Limits::not_kept, path),
+      LawRig kept("torque_reaction", Limits::kept, path), free("torque_reaction", Limits::not_kept, path),
           sources("", Limits::not_kept, path);
       const std::vector<double> with = kept.time_of_each_tick(times), without = free.time_of_each_tick(times),
                                 nothing = sources.time_of_each_tick(times);

@@ -37,7 +37,7 @@ struct Model {
 
 std::shared_ptr<const PlanarRrr> bench() {
   static const auto robot =
-      std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+      std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
   return robot;
 }
 

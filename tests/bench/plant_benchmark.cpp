@@ -15,11 +15,11 @@
 #include <numeric>
 #include <vector>
 
-#include "plant/bench_dynamics.h"
+#include "plant/rig_dynamics.h"
 #include "plant/sundials_integrator.h"
 #include "systems/framework/runge_kutta.h"
 #include "systems/robot/planar_rrr_presets.h"
-#include "tests/plant/bench_scene.h"
+#include "tests/plant/rig_scene.h"
 #include "tests/plant/servoed_station.h"
 #include "tests/plant/truth_servo.h"
 #include "tests/support/allocations.h"
@@ -37,9 +37,9 @@ const std::array<Eigen::Vector3d, 5> path_frequencies = {  // [rad/s]
     Eigen::Vector3d(5.0, 4.0, 3.0), Eigen::Vector3d(8.0, 3.0, 5.0), Eigen::Vector3d(3.0, 7.0, 8.0),
     Eigen::Vector3d(6.0, 6.5, 2.0), Eigen::Vector3d(2.5, 5.0, 9.0)};
 
-BenchSettings bench(double pylon_stiffness) {
-  BenchSettings settings;
-  settings.robot = test::individual_bench(BenchFriction::test_bench);
+RigSettings bench(double pylon_stiffness) {
+  RigSettings settings;
+  settings.robot = test::individual_rig(RigFriction::test_rig);
   if (pylon_stiffness == 0.0) return settings;
   settings.obstacles = {test::fixed_post(0.32, 0.20, {.stiffness = pylon_stiffness})};
   return settings;
@@ -48,14 +48,14 @@ BenchSettings bench(double pylon_stiffness) {
 /// The bench between two ticks.
 class Tick final : public DifferentialEquation {
  public:
-  explicit Tick(const BenchDynamics& dynamics)
+  explicit Tick(const RigDynamics& dynamics)
       : step(dynamics.initial_step()), dynamics_(dynamics), state_(6), rates_(6) {
     drives.braked = false;
     drives.torque.setZero(3);
   }
 
   DriveAction drives;
-  BenchStep step;
+  RigStep step;
 
   void rates(double, std::span<const double> y, std::span<double> rates) override {
     std::copy_n(y.data(), 6, state_.data());
@@ -64,10 +64,10 @@ class Tick final : public DifferentialEquation {
   }
 
  private:
-  const BenchDynamics& dynamics_;
+  const RigDynamics& dynamics_;
   PlatformVector no_wrench_ = PlatformVector::Zero(3);
-  BenchState state_;
-  BenchState rates_;
+  RigState state_;
+  RigState rates_;
 };
 
 /// What a tick starts from.
@@ -79,16 +79,16 @@ struct Start {
 using Run = std::vector<Start>;  // of every tick
 
 /// A run of the bench under a servo whose torques are held for a millisecond.
-Run run(const BenchDynamics& dynamics, const Eigen::Vector3d& frequency, Integrator& integrator) {
+Run run(const RigDynamics& dynamics, const Eigen::Vector3d& frequency, Integrator& integrator) {
   const test::Servo servo(dynamics.settings().robot, {.frequency = frequency});
   Tick tick(dynamics);
   Run starts;
   State y{};
   integrator.prepare(y.size());
   for (int k = 0; k < ticks; ++k) {
-    const BenchState state = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(y.data());
+    const RigState state = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(y.data());
     tick.drives.torque = servo.torque(1e-3 * k, state.head<3>(), state.tail<3>());
-    BenchSnapshot snapshot;
+    RigSnapshot snapshot;
     dynamics.snapshot(state, tick.drives, PlatformVector::Zero(3), tick.step, 1e-3, snapshot);
     tick.step.search.candidates = snapshot.search.candidates;
     starts.push_back({y, tick.drives.torque, tick.step.search.candidates});
@@ -106,14 +106,14 @@ double largest_error(const Run& of, const Run& reference) {
 }
 
 /// Runs along all paths that are right to the last few digits.
-std::vector<Run> references(const BenchDynamics& dynamics) {
+std::vector<Run> references(const RigDynamics& dynamics) {
   SundialsIntegrator tight({.relative_tolerance = 1e-13, .absolute_tolerance = 1e-14});
   std::vector<Run> runs;
   for (const Eigen::Vector3d& frequency : path_frequencies) runs.push_back(run(dynamics, frequency, tight));
   return runs;
 }
 
-double accuracy(const BenchDynamics& dynamics, const std::vector<Run>& references, Integrator& integrator) {
+double accuracy(const RigDynamics& dynamics, const std::vector<Run>& references, Integrator& integrator) {
   double sum_of_logarithms = 0.0;
   for (std::size_t i = 0; i < references.size(); ++i) {
     sum_of_logarithms +=
@@ -123,7 +123,7 @@ double accuracy(const BenchDynamics& dynamics, const std::vector<Run>& reference
 }
 
 /// The fewest steps a tick with which the classical method errs no more than `error`.
-int steps_of_equal_accuracy(const BenchDynamics& dynamics, const std::vector<Run>& references, double error) {
+int steps_of_equal_accuracy(const RigDynamics& dynamics, const std::vector<Run>& references, double error) {
   const auto reaches = [&](int steps) {
     RungeKutta method(steps);
     return accuracy(dynamics, references, method) <= error;
@@ -196,8 +196,8 @@ double share_of_ticks_near_contact(const std::vector<Run>& runs) {
 }
 
 void PlantMillisecond(benchmark::State& state, double pylon_stiffness) {
-  const auto shared = BenchDynamics::make(bench(pylon_stiffness));
-  const BenchDynamics& dynamics = *shared;
+  const auto shared = RigDynamics::make(bench(pylon_stiffness));
+  const RigDynamics& dynamics = *shared;
   const std::vector<Run> runs = references(dynamics);
   SundialsIntegrator integrator;
   const double error = accuracy(dynamics, runs, integrator);
@@ -245,7 +245,7 @@ BENCHMARK_CAPTURE(PlantMillisecond, contact_1_MN_per_m, 1e6)->UseManualTime();
 /// A tick of the whole station with noisy sensors and a pylon in the way, servo included.
 void StationMillisecond(benchmark::State& state) {
   SimulatedStationSettings settings;
-  settings.bench = bench(6e3);
+  settings.rig = bench(6e3);
   test::ServoedStation station(settings);
   for (auto unused : state) station.step();
 }

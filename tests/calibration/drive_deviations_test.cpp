@@ -7,7 +7,7 @@
 #include "diagrams/contact_control_settings.h"
 #include "systems/framework/recorded_values.h"
 #include "systems/signals/wrench_estimate.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 
 namespace flinch {
 namespace {
@@ -32,7 +32,7 @@ Recording recorded(const std::vector<Eigen::Vector3d>& torques) {
 const WrenchUncertainty hardly{.force = 1e-3, .moment = 1e-3};
 
 JointVector deviations(const std::vector<ResidualRecording>& of, const WrenchUncertainty& least = hardly) {
-  return drive_deviations(of, *test::planar_bench(), least);
+  return drive_deviations(of, *test::planar_rig(), least);
 }
 
 TEST(DriveDeviations, AreTheRootMeanSquareOfWhatCountsInAllRecordings) {

@@ -10,7 +10,7 @@
 #include "systems/framework/monotonic_clock.h"
 #include "tests/fault/link/link_latency.h"
 #include "tests/fault/link/link_trial.h"
-#include "tests/support/machine_watch.h"
+#include "tests/support/machine_monitor.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {

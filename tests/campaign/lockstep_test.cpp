@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "systems/framework/monotonic_clock.h"
-#include "tests/apps/flinch/bus/lockstep_bench.h"
+#include "tests/apps/flinch/bus/lockstep_rig.h"
 #include "tests/support/busy_loops.h"
 #include "tests/support/wanted.h"
 
@@ -12,7 +12,7 @@ namespace flinch {
 namespace {
 
 TEST(LockstepCampaign, IsTheRunInSimulationEveryTimeBesideBusyLoops) {
-  const test::LockstepBench lockstep("platform_collision");
+  const test::LockstepRig lockstep("platform_collision");
   const test::BusyLoops beside(4);
   const int runs = test::wanted("FLINCH_LOCKSTEP_RUNS", 3);
   int same = 0;

@@ -13,7 +13,7 @@
 #include "systems/framework/recording.h"
 #include "tests/fault/link/link_latency.h"
 #include "tests/fault/link/link_trial.h"
-#include "tests/support/machine_watch.h"
+#include "tests/support/machine_monitor.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {

@@ -57,7 +57,7 @@ TEST_P(ClosedForm, MovesAlikeAsLegs) {
 }
 
 TEST(LegsOfARobot, RefuseInertiaThatNoTwoLinksHave) {
-  PlanarRrrParameters parameters = bench_robot(BenchGeometry::nominal, BenchFriction::none);
+  PlanarRrrParameters parameters = rig_robot(RigGeometry::nominal, RigFriction::none);
   parameters.legs[0].inertia.p3 = 0.0;
   EXPECT_THAT(test::problems_of([&] { as_legs(PlanarRrr(parameters)); }),
               ElementsAre(HasSubstr("base_parameters: no two links")));

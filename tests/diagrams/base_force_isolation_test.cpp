@@ -26,7 +26,7 @@ ContactControl control_of(const std::shared_ptr<const ParallelRobot>& robot, boo
 }
 
 TEST(BaseForceIsolation, IsThereWhereTheSettingsKnowOfTheSensors) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const ContactControl without = control_of(robot, false);
   EXPECT_FALSE(without.base_forces);
   EXPECT_TRUE(without.others.located_contacts.empty());
@@ -38,7 +38,7 @@ TEST(BaseForceIsolation, IsThereWhereTheSettingsKnowOfTheSensors) {
 }
 
 TEST(BaseForceIsolation, IsRefusedWhereNothingIsKnownOfTheBaseJoints) {
-  EXPECT_THROW(control_of(test::touched_bench(), true, 2), SetupError);
+  EXPECT_THROW(control_of(test::touched_rig(), true, 2), SetupError);
   const auto spatial =
       std::make_shared<const Hexapod>(hexapod_robot(HexapodPayload::none, HexapodFriction::none));
   EXPECT_THROW(control_of(spatial, true, 6), SetupError);

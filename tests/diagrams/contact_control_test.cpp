@@ -10,7 +10,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/robot/planar_rrr_presets.h"
-#include "tests/diagrams/contact_bench.h"
+#include "tests/diagrams/contact_rig.h"
 #include "tests/support/allocations.h"
 
 namespace flinch {
@@ -18,67 +18,67 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
-using test::BenchExperiment;
 using test::collision;
 using test::encoder_noise;
+using test::RigExperiment;
 
 // ---------------------------------------------------------------- start
 
 TEST(ContactControl, IsOneNestedDiagram) {
-  Bench bench(BenchExperiment{});
-  EXPECT_EQ(bench.control.torque_command.id.owner->name(), "control");
-  EXPECT_NO_THROW(bench.diagram->tap("control/torque_gate/status"));
-  EXPECT_NO_THROW(bench.diagram->tap("control/wrench_estimate"));
+  Bench rig(RigExperiment{});
+  EXPECT_EQ(rig.control.torque_command.id.owner->name(), "control");
+  EXPECT_NO_THROW(rig.diagram->tap("control/torque_gate/status"));
+  EXPECT_NO_THROW(rig.diagram->tap("control/wrench_estimate"));
 }
 
 TEST(ContactControl, KeepsTheBrakesClosedUntilContactsCanBeDetected) {
-  Bench bench(BenchExperiment{});
-  bench.run(251ms, [&bench] {
-    ASSERT_EQ(bench.gate().phase, GatePhase::waiting);
-    ASSERT_FALSE(bench.torque().valid);
-    ASSERT_TRUE(bench.context.get(bench.control.brake).engage);
+  Bench rig(RigExperiment{});
+  rig.run(251ms, [&rig] {
+    ASSERT_EQ(rig.gate().phase, GatePhase::waiting);
+    ASSERT_FALSE(rig.torque().valid);
+    ASSERT_TRUE(rig.context.get(rig.control.brake).engage);
   });
-  bench.tick();
-  EXPECT_EQ(bench.gate().phase, GatePhase::open);
-  bench.tick();
-  EXPECT_EQ(bench.state().mode, nominal);
-  EXPECT_TRUE(bench.torque().valid);
-  EXPECT_FALSE(bench.context.get(bench.control.brake).engage);
+  rig.tick();
+  EXPECT_EQ(rig.gate().phase, GatePhase::open);
+  rig.tick();
+  EXPECT_EQ(rig.state().mode, nominal);
+  EXPECT_TRUE(rig.torque().valid);
+  EXPECT_FALSE(rig.context.get(rig.control.brake).engage);
 }
 
 TEST(ContactControl, HoldsTheRobotWhereItFindsIt) {
-  BenchExperiment experiment;
-  experiment.friction = BenchFriction::test_bench;
+  RigExperiment experiment;
+  experiment.friction = RigFriction::test_rig;
   experiment.station.encoder_noise = encoder_noise;
   experiment.station.pose = Eigen::Vector3d(0.04, -0.06, 0.1);
-  Bench bench(experiment);
-  bench.run(3s, [&] { ASSERT_LT((bench.pose() - experiment.station.pose).norm(), 1e-4); });
-  EXPECT_EQ(bench.state().mode, nominal);
-  EXPECT_LT(bench.velocity().norm(), 1e-2);
+  Bench rig(experiment);
+  rig.run(3s, [&] { ASSERT_LT((rig.pose() - experiment.station.pose).norm(), 1e-4); });
+  EXPECT_EQ(rig.state().mode, nominal);
+  EXPECT_LT(rig.velocity().norm(), 1e-2);
 }
 
 // ---------------------------------------------------------------- without contact
 
 TEST(ContactControl, FollowsTheSquareAndFeelsNothing) {
-  BenchExperiment experiment;
-  experiment.friction = BenchFriction::test_bench;
+  RigExperiment experiment;
+  experiment.friction = RigFriction::test_rig;
   experiment.station.encoder_noise = encoder_noise;
   experiment.station.pose = Eigen::Vector3d(-0.1, -0.1, 0.0);
   experiment.control.drive_torque.torque_constant = experiment.station.torque_constant;
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, experiment.friction));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, experiment.friction));
   const PoseLimits limits{.translation = {1.5, 12.0, 2000.0}, .rotation = {4.0, 80.0, 8000.0}};
   experiment.control.trajectory.path = PlatformPath::square(robot, PlatformVector::Zero(3), 0.2, limits, 2);
-  Bench bench(experiment);
+  Bench rig(experiment);
   double error = 0.0, force = 0.0, moment = 0.0, speed = 0.0;
-  bench.run(4s, [&] {
-    const PlatformReference& reference = bench.context.get(bench.control.reference);
+  rig.run(4s, [&] {
+    const PlatformReference& reference = rig.context.get(rig.control.reference);
     if (!reference.valid) return;
-    const PlatformVector& wrench = bench.context.get(bench.control.wrench_estimate).wrench_in_base;
-    error = std::max(error, (reference.pose.head(2) - bench.pose().head(2)).norm());
+    const PlatformVector& wrench = rig.context.get(rig.control.wrench_estimate).wrench_in_base;
+    error = std::max(error, (reference.pose.head(2) - rig.pose().head(2)).norm());
     force = std::max(force, wrench.head(2).lpNorm<Eigen::Infinity>());
     moment = std::max(moment, std::abs(wrench[2]));
-    speed = std::max(speed, bench.velocity().head(2).norm());
-    ASSERT_EQ(bench.state().mode, nominal);
+    speed = std::max(speed, rig.velocity().head(2).norm());
+    ASSERT_EQ(rig.state().mode, nominal);
   });
   RecordProperty("position_error_mm", std::to_string(1e3 * error));
   RecordProperty("force_N", std::to_string(force));
@@ -86,27 +86,27 @@ TEST(ContactControl, FollowsTheSquareAndFeelsNothing) {
   EXPECT_LT(error, 0.010);  // [SafePR] V-B
   EXPECT_LT(force, 5.0);
   EXPECT_LT(moment, 0.3);
-  EXPECT_TRUE(bench.context.get(bench.control.reference).finished);
+  EXPECT_TRUE(rig.context.get(rig.control.reference).finished);
 }
 
 // y = a y + (1 - a) k_t i with a = (2 - w T) / (2 + w T), from currents that are read again here.
 TEST(ContactControl, AlignsTheTorqueWithWhateverFilterTheVelocityHas) {
   for (const double cutoff : {30.0, 60.0}) {
     for (const bool aligned : {true, false}) {
-      BenchExperiment experiment = collision(0.5);
+      RigExperiment experiment = collision(0.5);
       experiment.control.velocity_filter.low_pass.cutoff_frequency = cutoff;  // [Hz]
       experiment.control.aligned_with_velocity = aligned;
-      Bench bench(experiment);
-      bench.run(300ms);
+      Bench rig(experiment);
+      rig.run(300ms);
       const double wT = 2.0 * std::numbers::pi * cutoff * 1e-3;
       const double a = aligned ? (2.0 - wT) / (2.0 + wT) : 0.0;
-      JointVector expected = bench.context.get(bench.control.drive_torque).torque;
+      JointVector expected = rig.context.get(rig.control.drive_torque).torque;
       double largest = 0.0;  // [Nm]
-      bench.run(300ms, [&] {
-        const JointVector held = 6.1 * bench.context.get(bench.station.drives).current;
+      rig.run(300ms, [&] {
+        const JointVector held = 6.1 * rig.context.get(rig.station.drives).current;
         expected = a * expected + (1.0 - a) * held;
         largest = std::max(largest, (held - expected).norm());
-        ASSERT_LT((bench.context.get(bench.control.drive_torque).torque - expected).norm(), 1e-12);
+        ASSERT_LT((rig.context.get(rig.control.drive_torque).torque - expected).norm(), 1e-12);
       });
       EXPECT_EQ(largest > 1.0, aligned) << "the filter has something to do";
     }
@@ -114,13 +114,13 @@ TEST(ContactControl, AlignsTheTorqueWithWhateverFilterTheVelocityHas) {
 }
 
 TEST(ContactControl, GivesWayToAWeakForceByForceOverStiffness) {
-  Bench bench(BenchExperiment{});
-  bench.run(300ms);
-  bench.push(Eigen::Vector3d(8.0, -5.0, 0.5));
-  bench.run(2s);
-  EXPECT_EQ(bench.state().mode, nominal);
-  EXPECT_LT((bench.pose() - Eigen::Vector3d(8.0 / 2000.0, -5.0 / 2000.0, 0.5 / 85.0)).norm(), 1e-5);
-  EXPECT_LT((bench.context.get(bench.control.wrench_estimate).wrench_in_base -
+  Bench rig(RigExperiment{});
+  rig.run(300ms);
+  rig.push(Eigen::Vector3d(8.0, -5.0, 0.5));
+  rig.run(2s);
+  EXPECT_EQ(rig.state().mode, nominal);
+  EXPECT_LT((rig.pose() - Eigen::Vector3d(8.0 / 2000.0, -5.0 / 2000.0, 0.5 / 85.0)).norm(), 1e-5);
+  EXPECT_LT((rig.context.get(rig.control.wrench_estimate).wrench_in_base -
              PlatformVector(Eigen::Vector3d(8, -5, 0.5)))
                 .norm(),
             0.05);
@@ -132,146 +132,146 @@ class CollisionAtSpeed : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(ContactControl, CollisionAtSpeed, testing::Values(0.2, 0.5, 0.7));
 
 TEST_P(CollisionAtSpeed, IsDetectedAndTheRobotRetreats) {
-  Bench bench(collision(GetParam()));
-  ASSERT_TRUE(bench.run_until(react, 2s));
-  const Time detected = bench.context.get(bench.control.detection).detected;
-  EXPECT_EQ(bench.state().since, detected);
-  const double where = bench.pose()[0];
-  EXPECT_GT(bench.context.get(bench.station.contact_force), 10.0);
+  Bench rig(collision(GetParam()));
+  ASSERT_TRUE(rig.run_until(react, 2s));
+  const Time detected = rig.context.get(rig.control.detection).detected;
+  EXPECT_EQ(rig.state().since, detected);
+  const double where = rig.pose()[0];
+  EXPECT_GT(rig.context.get(rig.station.contact_force), 10.0);
 
-  ASSERT_TRUE(bench.run_until(hold, 1s));
-  bench.run(1s, [&bench] { ASSERT_EQ(bench.state().mode, hold); });
-  EXPECT_EQ(bench.context.get(bench.station.contact_force), 0.0);
-  EXPECT_NEAR(bench.pose()[0], where - 0.10, 2e-3);
-  EXPECT_LT(bench.velocity().norm(), 1e-3);
-  EXPECT_EQ(bench.gate().phase, GatePhase::open);
+  ASSERT_TRUE(rig.run_until(hold, 1s));
+  rig.run(1s, [&rig] { ASSERT_EQ(rig.state().mode, hold); });
+  EXPECT_EQ(rig.context.get(rig.station.contact_force), 0.0);
+  EXPECT_NEAR(rig.pose()[0], where - 0.10, 2e-3);
+  EXPECT_LT(rig.velocity().norm(), 1e-3);
+  EXPECT_EQ(rig.gate().phase, GatePhase::open);
 }
 
 TEST(ContactControl, TakesEnergyOutAfterAHardContactUntilTheOperatorResetsAtRest) {
-  Bench bench(BenchExperiment{});
-  bench.run(300ms);
-  bench.push(Eigen::Vector3d(90.0, 0.0, 0.0));
-  ASSERT_TRUE(bench.run_until(react, 100ms));
-  ASSERT_TRUE(bench.run_until(zero_g, 300ms));
-  bench.press({.start = false, .reset = true});
-  bench.run(20ms);
-  EXPECT_EQ(bench.state().mode, zero_g) << "still pushed";
-  const JointVector& rates = bench.context.get(bench.control.joint_motion).velocity;
-  EXPECT_LT(bench.torque().torque.dot(rates), 0.0);
-  EXPECT_LT((bench.torque().torque.normalized() + rates.normalized()).norm(), 1e-12);
-  bench.press({});
+  Bench rig(RigExperiment{});
+  rig.run(300ms);
+  rig.push(Eigen::Vector3d(90.0, 0.0, 0.0));
+  ASSERT_TRUE(rig.run_until(react, 100ms));
+  ASSERT_TRUE(rig.run_until(zero_g, 300ms));
+  rig.press({.start = false, .reset = true});
+  rig.run(20ms);
+  EXPECT_EQ(rig.state().mode, zero_g) << "still pushed";
+  const JointVector& rates = rig.context.get(rig.control.joint_motion).velocity;
+  EXPECT_LT(rig.torque().torque.dot(rates), 0.0);
+  EXPECT_LT((rig.torque().torque.normalized() + rates.normalized()).norm(), 1e-12);
+  rig.press({});
 }
 
 TEST(ContactControl, FloatsAsInThePapersWhereItIsAskedTo) {
-  BenchExperiment experiment;
+  RigExperiment experiment;
   experiment.control.yielding.reset();
-  Bench bench(experiment);
-  bench.run(300ms);
-  bench.push(Eigen::Vector3d(90.0, 0.0, 0.0));
-  ASSERT_TRUE(bench.run_until(zero_g, 300ms));
-  bench.run(20ms);
-  EXPECT_LT(bench.torque().torque.norm(), 1e-9) << "no gravity in the plane";
+  Bench rig(experiment);
+  rig.run(300ms);
+  rig.push(Eigen::Vector3d(90.0, 0.0, 0.0));
+  ASSERT_TRUE(rig.run_until(zero_g, 300ms));
+  rig.run(20ms);
+  EXPECT_LT(rig.torque().torque.norm(), 1e-9) << "no gravity in the plane";
 }
 
 TEST(ContactControl, LeavesZeroGravityAtRestOnReset) {
-  Bench bench(BenchExperiment{});
-  bench.run(300ms);
-  bench.push(Eigen::Vector3d(0.0, 120.0, 0.0));
-  ASSERT_TRUE(bench.run_until(zero_g, 200ms));
-  bench.push(PlatformVector());
-  bench.run(500ms);
-  EXPECT_LT(bench.velocity().head(2).norm(), 0.02) << "comes to rest by itself";
-  ASSERT_EQ(bench.state().mode, zero_g);
-  bench.press({.start = false, .reset = true});
-  bench.tick();
-  EXPECT_EQ(bench.state().mode, nominal);
-  const Eigen::Vector3d here = bench.pose();
-  bench.run(500ms);
-  EXPECT_EQ(bench.state().mode, nominal);
-  EXPECT_LT((bench.pose() - here).norm(), 2e-3);
+  Bench rig(RigExperiment{});
+  rig.run(300ms);
+  rig.push(Eigen::Vector3d(0.0, 120.0, 0.0));
+  ASSERT_TRUE(rig.run_until(zero_g, 200ms));
+  rig.push(PlatformVector());
+  rig.run(500ms);
+  EXPECT_LT(rig.velocity().head(2).norm(), 0.02) << "comes to rest by itself";
+  ASSERT_EQ(rig.state().mode, zero_g);
+  rig.press({.start = false, .reset = true});
+  rig.tick();
+  EXPECT_EQ(rig.state().mode, nominal);
+  const Eigen::Vector3d here = rig.pose();
+  rig.run(500ms);
+  EXPECT_EQ(rig.state().mode, nominal);
+  EXPECT_LT((rig.pose() - here).norm(), 2e-3);
 }
 
 TEST(ContactControl, HoldsItsPlaceAfterAResetAndGoesOnOnlyWhenStarted) {
-  Bench bench(collision(0.5));
-  ASSERT_TRUE(bench.run_until(hold, 3s));
-  bench.run(500ms);
-  const Eigen::Vector3d here = bench.pose();
-  JointVector last = bench.torque().torque;
-  bench.press({.start = false, .reset = true});
-  bench.run(500ms, [&] {
-    ASSERT_LT((bench.torque().torque - last).lpNorm<Eigen::Infinity>(), 1.0) << "no jump";
-    last = bench.torque().torque;
+  Bench rig(collision(0.5));
+  ASSERT_TRUE(rig.run_until(hold, 3s));
+  rig.run(500ms);
+  const Eigen::Vector3d here = rig.pose();
+  JointVector last = rig.torque().torque;
+  rig.press({.start = false, .reset = true});
+  rig.run(500ms, [&] {
+    ASSERT_LT((rig.torque().torque - last).lpNorm<Eigen::Infinity>(), 1.0) << "no jump";
+    last = rig.torque().torque;
   });
-  EXPECT_EQ(bench.state().mode, nominal);
-  EXPECT_LT((bench.pose() - here).norm(), 1e-3);
-  bench.press({});
-  bench.run(500ms);
-  EXPECT_LT((bench.pose() - here).norm(), 1e-3);
-  bench.press({.start = true, .reset = false});
-  EXPECT_TRUE(bench.run_until(react, 3s)) << "into the wall once more";
+  EXPECT_EQ(rig.state().mode, nominal);
+  EXPECT_LT((rig.pose() - here).norm(), 1e-3);
+  rig.press({});
+  rig.run(500ms);
+  EXPECT_LT((rig.pose() - here).norm(), 1e-3);
+  rig.press({.start = true, .reset = false});
+  EXPECT_TRUE(rig.run_until(react, 3s)) << "into the wall once more";
 }
 
 TEST(ContactControl, RetreatsSofterWhereAskedTo) {
-  BenchExperiment experiment = collision(0.5);
+  RigExperiment experiment = collision(0.5);
   experiment.control.reaction_stiffness = 0.2;
-  Bench bench(experiment);
-  ASSERT_TRUE(bench.run_until(hold, 3s));
-  bench.run(2s);
-  const Eigen::Vector3d here = bench.pose();
-  bench.push(Eigen::Vector3d(0.0, 8.0, 0.0));
-  bench.run(3s);
-  EXPECT_NEAR(bench.pose()[1] - here[1], 8.0 / 400.0, 2e-3) << "within friction";
+  Bench rig(experiment);
+  ASSERT_TRUE(rig.run_until(hold, 3s));
+  rig.run(2s);
+  const Eigen::Vector3d here = rig.pose();
+  rig.push(Eigen::Vector3d(0.0, 8.0, 0.0));
+  rig.run(3s);
+  EXPECT_NEAR(rig.pose()[1] - here[1], 8.0 / 400.0, 2e-3) << "within friction";
 }
 
 // ---------------------------------------------------------------- faults
 
 TEST(ContactControl, BrakesWhenTheEncodersAreLostAndRecoversOnReset) {
-  Bench bench(collision(0.5));
-  bench.run(400ms);
-  ASSERT_EQ(bench.state().mode, nominal);
-  ASSERT_GT(bench.velocity()[0], 0.4);
-  bench.lose_encoders(true);
-  bench.run(2ms);
-  EXPECT_EQ(bench.gate().phase, GatePhase::open) << "two readings may be missing";
-  bench.tick();
-  EXPECT_EQ(bench.gate().fault, GateFault::joints_invalid);
-  EXPECT_TRUE(bench.context.get(bench.control.brake).engage);
-  bench.run(100ms);
-  EXPECT_LT(bench.velocity().norm(), 1e-6);
-  bench.lose_encoders(false);
-  bench.run(400ms);
-  EXPECT_EQ(bench.gate().phase, GatePhase::closed);
-  EXPECT_EQ(bench.state().mode, stopped);
-  const Eigen::Vector3d here = bench.pose();
-  bench.press({.start = false, .reset = true});
-  bench.run(1s);
-  EXPECT_EQ(bench.gate().phase, GatePhase::open);
-  EXPECT_EQ(bench.state().mode, nominal);
-  EXPECT_LT((bench.pose() - here).norm(), 1e-3) << "does not go on by itself";
+  Bench rig(collision(0.5));
+  rig.run(400ms);
+  ASSERT_EQ(rig.state().mode, nominal);
+  ASSERT_GT(rig.velocity()[0], 0.4);
+  rig.lose_encoders(true);
+  rig.run(2ms);
+  EXPECT_EQ(rig.gate().phase, GatePhase::open) << "two readings may be missing";
+  rig.tick();
+  EXPECT_EQ(rig.gate().fault, GateFault::joints_invalid);
+  EXPECT_TRUE(rig.context.get(rig.control.brake).engage);
+  rig.run(100ms);
+  EXPECT_LT(rig.velocity().norm(), 1e-6);
+  rig.lose_encoders(false);
+  rig.run(400ms);
+  EXPECT_EQ(rig.gate().phase, GatePhase::closed);
+  EXPECT_EQ(rig.state().mode, stopped);
+  const Eigen::Vector3d here = rig.pose();
+  rig.press({.start = false, .reset = true});
+  rig.run(1s);
+  EXPECT_EQ(rig.gate().phase, GatePhase::open);
+  EXPECT_EQ(rig.state().mode, nominal);
+  EXPECT_LT((rig.pose() - here).norm(), 1e-3) << "does not go on by itself";
 }
 
 TEST(ContactControl, StopsBeforeTheRobotLeavesItsWorkspace) {
-  BenchExperiment experiment;
+  RigExperiment experiment;
   experiment.control.sequence.zero_g_when_struck = false;
   experiment.control.contact_detector.reaction = {1e3, 1e3};
   experiment.control.contact_detector.hard = {1e3, 1e3};
   experiment.control.impedance.stiffness = Eigen::Vector3d(1.0, 1.0, 1.0);
-  Bench bench(experiment);
-  bench.run(300ms);
-  bench.push(Eigen::Vector3d(0.0, 0.0, 1.5));  // turns it towards its singularity
+  Bench rig(experiment);
+  rig.run(300ms);
+  rig.push(Eigen::Vector3d(0.0, 0.0, 1.5));  // turns it towards its singularity
   bool closed = false;
-  bench.run(3s, [&] {
-    closed = closed || bench.gate().phase == GatePhase::closed;
-    if (closed) bench.push(PlatformVector());
+  rig.run(3s, [&] {
+    closed = closed || rig.gate().phase == GatePhase::closed;
+    if (closed) rig.push(PlatformVector());
   });
   EXPECT_TRUE(closed);
-  EXPECT_EQ(bench.gate().reaction, GateReaction::controlled_stop);
-  EXPECT_LT(bench.velocity().norm(), 1e-3);
+  EXPECT_EQ(rig.gate().reaction, GateReaction::controlled_stop);
+  EXPECT_LT(rig.velocity().norm(), 1e-3);
 }
 
 TEST(ContactControl, WritesNoTorqueThatIsNoNumberWhateverTheStationSays) {
-  const BenchExperiment experiment;
-  const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const RigExperiment experiment;
+  const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
   DiagramBuilder builder("nonsense");
   const ContactControl control = add_contact_control(builder, robot, experiment.control);
   const auto joints = builder.export_input("joints", control.joints);
@@ -312,17 +312,17 @@ TEST(ContactControl, WritesNoTorqueThatIsNoNumberWhateverTheStationSays) {
 // ---------------------------------------------------------------- real time, settings
 
 TEST(ContactControl, NeverAllocatesInAnyMode) {
-  Bench bench(collision(0.7));
-  bench.tick();
+  Bench rig(collision(0.7));
+  rig.tick();
   std::optional<test::AllocationCounter> counter(std::in_place);
-  ASSERT_TRUE(bench.run_until(hold, 3s));
-  bench.press({.start = false, .reset = true});
-  bench.run(50ms);
-  EXPECT_EQ(bench.state().mode, nominal);
-  bench.push(Eigen::Vector3d(0.0, 120.0, 0.0));
-  EXPECT_TRUE(bench.run_until(zero_g, 200ms));
-  bench.lose_encoders(true);
-  EXPECT_TRUE(bench.run_until(stopped, 10ms));
+  ASSERT_TRUE(rig.run_until(hold, 3s));
+  rig.press({.start = false, .reset = true});
+  rig.run(50ms);
+  EXPECT_EQ(rig.state().mode, nominal);
+  rig.push(Eigen::Vector3d(0.0, 120.0, 0.0));
+  EXPECT_TRUE(rig.run_until(zero_g, 200ms));
+  rig.lose_encoders(true);
+  EXPECT_TRUE(rig.run_until(stopped, 10ms));
   EXPECT_EQ(counter->count(), 0);
 }
 
@@ -334,7 +334,7 @@ TEST(ContactControl, RepeatsBitForBit) {
 }
 
 TEST(ContactControl, RefusesSettingsThatDoNotFitTheRobot) {
-  const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
   const auto add = [&robot](const ContactControlSettings& settings) {
     DiagramBuilder builder;
     add_contact_control(builder, robot, settings);

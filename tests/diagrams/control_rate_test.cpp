@@ -16,20 +16,20 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const RobotFile& bench() {
+const RobotFile& rig() {
   static const RobotFile file = read_robot_file(FLINCH_SOURCE_DIR "/apps/robots/planar_3rrr.yaml");
   return file;
 }
 
 ContactControlSettings settings_at(Time period) {
-  return settings_for(*bench().robot, bench().drives, bench().limits, period);
+  return settings_for(*rig().robot, rig().drives, rig().limits, period);
 }
 
 TEST(ControlRate, SuitsTheDefaultsAtEveryPeriod) {
   for (const Time period : {250us, 400us, 500us, 1000us, 1500us, 2000us, 3333us, 4000us}) {
     EXPECT_TRUE(too_fast_for_rate(settings_at(period)).empty()) << period.count();
     DiagramBuilder builder("loop", period);
-    EXPECT_NO_THROW(add_contact_control(builder, bench().robot, settings_at(period))) << period.count();
+    EXPECT_NO_THROW(add_contact_control(builder, rig().robot, settings_at(period))) << period.count();
   }
 }
 
@@ -52,7 +52,7 @@ TEST(ControlRate, ThatIsTooSlowIsRefusedByTheControlPath) {
   ContactControlSettings settings = settings_at(4ms);
   settings.isolation.observer_gain = 1000.0;
   DiagramBuilder builder("loop", 4ms);
-  EXPECT_THAT(test::problems_of([&] { add_contact_control(builder, bench().robot, settings); }),
+  EXPECT_THAT(test::problems_of([&] { add_contact_control(builder, rig().robot, settings); }),
               ElementsAre(HasSubstr("isolation.observer_gain is 1000 1/s")));
 }
 

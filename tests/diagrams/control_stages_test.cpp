@@ -4,21 +4,21 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
-#include "tests/diagrams/contact_bench.h"
+#include "tests/diagrams/contact_rig.h"
 
 namespace flinch {
 namespace {
 
 using enum ReactionMode;
 using test::Bench;
-using test::BenchExperiment;
 using test::collision;
+using test::RigExperiment;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// A momentum observer with a gain of its own.
 WrenchEstimator momentum_observer(const std::string& name, double gain) {
-  return {name, [gain](const StageSite& site, const AcceleratedPorts& given) {
+  return {name, [gain](const StageContext& site, const AcceleratedPorts& given) {
             MomentumObserverSettings settings = site.settings.momentum_observer;
             settings.gain.setConstant(site.robot->dof(), gain);
             auto& observer = site.builder.add<MomentumObserver>(site.name, site.robot, settings);
@@ -30,8 +30,8 @@ WrenchEstimator momentum_observer(const std::string& name, double gain) {
           }};
 }
 
-const OutputPort<WrenchEstimate>& other_wrench(const Bench& bench, const std::string& name) {
-  for (const auto& other : bench.control.others.wrenches) {
+const OutputPort<WrenchEstimate>& other_wrench(const Bench& rig, const std::string& name) {
+  for (const auto& other : rig.control.others.wrenches) {
     if (other.name == name) return other.port;
   }
   throw SetupError("there is no " + name);
@@ -40,7 +40,7 @@ const OutputPort<WrenchEstimate>& other_wrench(const Bench& bench, const std::st
 // ---------------------------------------------------------------- side by side
 
 TEST(ControlStages, WhatIsNotFollowedChangesNoBit) {
-  BenchExperiment accompanied = collision(0.5);
+  RigExperiment accompanied = collision(0.5);
   accompanied.control.stages.estimators.add(momentum_observer("fast", 200.0));
   accompanied.control.stages.reaction_laws.add({"backwards", standard_stages().nominal_laws.all[0].add});
   Bench alone(collision(0.5)), together(accompanied);
@@ -53,8 +53,8 @@ TEST(ControlStages, WhatIsNotFollowedChangesNoBit) {
 }
 
 TEST(ControlStages, AnEstimatorSeesTheSameWhetherItIsFollowedOrNot) {
-  BenchExperiment followed, beside;
-  for (BenchExperiment* each : {&followed, &beside}) {
+  RigExperiment followed, beside;
+  for (RigExperiment* each : {&followed, &beside}) {
     each->station.encoder_noise = test::encoder_noise;
     // The gate opens when the followed estimate is valid: that shall be at the same tick for both robots.
     each->control.momentum_observer.input_settling_time = 250ms;
@@ -62,10 +62,10 @@ TEST(ControlStages, AnEstimatorSeesTheSameWhetherItIsFollowedOrNot) {
   followed.control.stages.estimators.follow(momentum_observer("fast", 200.0));
   beside.control.stages.estimators.add(momentum_observer("fast", 200.0));
   Bench first(followed), second(beside);
-  for (Bench* bench : {&first, &second}) {
-    bench->run(300ms);
-    bench->push(Eigen::Vector3d(5.0, 0.0, 0.0));
-    bench->run(20ms);
+  for (Bench* rig : {&first, &second}) {
+    rig->run(300ms);
+    rig->push(Eigen::Vector3d(5.0, 0.0, 0.0));
+    rig->run(20ms);
   }
   ASSERT_EQ(first.context.get(first.station.motion), second.context.get(second.station.motion));
   const PlatformVector fast = first.context.get(first.control.wrench_estimate).wrench_in_base;
@@ -79,11 +79,11 @@ TEST(ControlStages, AnEstimatorSeesTheSameWhetherItIsFollowedOrNot) {
 
 TEST(ControlStages, TheDetectorActsOnTheFollowedEstimator) {
   const auto detected = [](bool fast) {
-    BenchExperiment experiment = collision(0.5);
+    RigExperiment experiment = collision(0.5);
     if (fast) experiment.control.stages.estimators.follow(momentum_observer("fast", 200.0));
-    Bench bench(experiment);
-    EXPECT_TRUE(bench.run_until(react, 3s));
-    return bench.state().since;
+    Bench rig(experiment);
+    EXPECT_TRUE(rig.run_until(react, 3s));
+    return rig.state().since;
   };
   EXPECT_LT(detected(true), detected(false));
 }
@@ -98,7 +98,7 @@ class Inventory final : public System {
   OutputPort<WrenchEstimate> wrench = output<&Inventory::list>("wrench", imu, acceleration);
 
   static WrenchEstimator stage() {
-    return {"inventory", [](const StageSite& site, const AcceleratedPorts& given) {
+    return {"inventory", [](const StageContext& site, const AcceleratedPorts& given) {
               auto& block = site.builder.add<Inventory>(site.name);
               site.builder.connect(given.imu, block.imu);
               site.builder.connect(given.acceleration, block.acceleration);
@@ -116,30 +116,30 @@ class Inventory final : public System {
 };
 
 TEST(ControlStages, WhatAStationHasNotIsNoData) {
-  BenchExperiment experiment;
+  RigExperiment experiment;
   experiment.control.stages.estimators.add(Inventory::stage());
-  Bench bench(experiment);  // its station has no IMU, and there is no source of acceleration
-  bench.tick();
-  EXPECT_EQ(bench.context.get(other_wrench(bench, "wrench_inventory")).wrench_in_base,
+  Bench rig(experiment);  // its station has no IMU, and there is no source of acceleration
+  rig.tick();
+  EXPECT_EQ(rig.context.get(other_wrench(rig, "wrench_inventory")).wrench_in_base,
             PlatformVector(Eigen::Vector3d::Zero()));
 }
 
 TEST(ControlStages, AnAccelerationIsGivenToEstimatorsAndShown) {
-  BenchExperiment experiment;
+  RigExperiment experiment;
   PlatformAcceleration known;
   known.valid = true;
   known.acceleration = Eigen::Vector3d(1.0, 2.0, 3.0);
   experiment.control.stages.accelerations.add(
-      {"known", [known](const StageSite& site, const MotionPorts&) {
+      {"known", [known](const StageContext& site, const MotionPorts&) {
          return site.builder.add<Constant<PlatformAcceleration>>(site.name, known).value;
        }});
   experiment.control.stages.estimators.add(Inventory::stage());
-  Bench bench(experiment);
-  bench.tick();
-  EXPECT_EQ(bench.context.get(other_wrench(bench, "wrench_inventory")).wrench_in_base[1], 1.0);
-  ASSERT_EQ(bench.control.others.accelerations.size(), 1U);
-  EXPECT_EQ(bench.control.others.accelerations[0].name, "acceleration");
-  EXPECT_EQ(bench.context.get(bench.control.others.accelerations[0].port).acceleration, known.acceleration);
+  Bench rig(experiment);
+  rig.tick();
+  EXPECT_EQ(rig.context.get(other_wrench(rig, "wrench_inventory")).wrench_in_base[1], 1.0);
+  ASSERT_EQ(rig.control.others.accelerations.size(), 1U);
+  EXPECT_EQ(rig.control.others.accelerations[0].name, "acceleration");
+  EXPECT_EQ(rig.context.get(rig.control.others.accelerations[0].port).acceleration, known.acceleration);
 }
 
 /// Stands still and says that it has arrived.
@@ -161,22 +161,22 @@ class Freeze final : public System {
 };
 
 TEST(ControlStages, AReactionLawOfOnesOwnHasTheTorque) {
-  BenchExperiment experiment = collision(0.5);
+  RigExperiment experiment = collision(0.5);
   experiment.control.stages.reaction_laws.follow(
-      {"freeze", [](const StageSite& site, const ReactionPorts& given) -> LawPorts {
+      {"freeze", [](const StageContext& site, const ReactionPorts& given) -> LawPorts {
          auto& freeze = site.builder.add<Freeze>(site.name);
          site.builder.connect(given.kinematics, freeze.kinematics);
          site.builder.connect(given.joint_motion, freeze.joints);
          return {.torque = freeze.torque, .reference = freeze.reference};
        }});
-  Bench bench(experiment);
-  ASSERT_TRUE(bench.run_until(react, 3s));
-  EXPECT_TRUE(bench.run_until(hold, 5ms));  // it arrives at once, where the retraction takes its time
-  bench.run(500ms);
-  const JointMotion& motion = bench.context.get(bench.control.joint_motion);
-  EXPECT_LT((bench.torque().torque + 20.0 * motion.velocity).norm(), 1e-12);
-  ASSERT_EQ(bench.control.others.torques.size(), 1U);
-  EXPECT_EQ(bench.control.others.torques[0].name, "torque_retraction");
+  Bench rig(experiment);
+  ASSERT_TRUE(rig.run_until(react, 3s));
+  EXPECT_TRUE(rig.run_until(hold, 5ms));  // it arrives at once, where the retraction takes its time
+  rig.run(500ms);
+  const JointMotion& motion = rig.context.get(rig.control.joint_motion);
+  EXPECT_LT((rig.torque().torque + 20.0 * motion.velocity).norm(), 1e-12);
+  ASSERT_EQ(rig.control.others.torques.size(), 1U);
+  EXPECT_EQ(rig.control.others.torques[0].name, "torque_retraction");
 }
 
 /// Notices nothing.
@@ -194,17 +194,18 @@ class Numb final : public System {
 };
 
 TEST(ControlStages, ADetectorOfOnesOwnDecides) {
-  BenchExperiment experiment = collision(0.5);
-  experiment.control.stages.detectors.follow({"numb", [](const StageSite& site, const EstimatePorts& given) {
-                                                auto& numb = site.builder.add<Numb>(site.name);
-                                                site.builder.connect(given.wrench, numb.wrench);
-                                                return numb.contact;
-                                              }});
-  Bench bench(experiment);
-  EXPECT_FALSE(bench.run_until(react, 1500ms));
-  ASSERT_EQ(bench.control.others.detections.size(), 1U);
-  EXPECT_EQ(bench.control.others.detections[0].name, "detection_contact_detector");
-  EXPECT_NE(bench.context.get(bench.control.others.detections[0].port).level, ContactLevel::none);
+  RigExperiment experiment = collision(0.5);
+  experiment.control.stages.detectors.follow(
+      {"numb", [](const StageContext& site, const EstimatePorts& given) {
+         auto& numb = site.builder.add<Numb>(site.name);
+         site.builder.connect(given.wrench, numb.wrench);
+         return numb.contact;
+       }});
+  Bench rig(experiment);
+  EXPECT_FALSE(rig.run_until(react, 1500ms));
+  ASSERT_EQ(rig.control.others.detections.size(), 1U);
+  EXPECT_EQ(rig.control.others.detections[0].name, "detection_contact_detector");
+  EXPECT_NE(rig.context.get(rig.control.others.detections[0].port).level, ContactLevel::none);
 }
 
 // ---------------------------------------------------------------- mistakes
@@ -222,7 +223,7 @@ TEST(ControlStages, AreRefusedWithAllThatIsWrong) {
                           "the detector to follow is 'contact_detecter', which does not run; did you mean "
                           "'contact_detector'?",
                           HasSubstr("'nominal_impedance' has no function"), HasSubstr("letters, digits")));
-  BenchExperiment experiment;
+  RigExperiment experiment;
   experiment.control.stages = stages;
   EXPECT_THROW(Bench{experiment}, SetupError);
 }

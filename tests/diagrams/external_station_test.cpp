@@ -14,8 +14,8 @@
 namespace flinch {
 namespace {
 
-std::shared_ptr<const ParallelRobot> bench() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+std::shared_ptr<const ParallelRobot> rig() {
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
 }
 
 Arrival<JointReading> joints(std::uint32_t number, Time acquired, std::uint32_t source = 9) {
@@ -33,7 +33,7 @@ class Outside {
  public:
   explicit Outside(const ExternalStationSettings& settings = {}) {
     DiagramBuilder builder("outside");
-    station_ = add_external_station(builder, bench(), settings);
+    station_ = add_external_station(builder, rig(), settings);
     builder.connect(builder.add<Constant<TorqueCommand>>("torque", TorqueCommand()).value,
                     station_.torque_command);
     builder.connect(builder.add<Constant<BrakeCommand>>("brake", BrakeCommand()).value, station_.brake);
@@ -199,7 +199,7 @@ TEST(ExternalStation, NeverAllocates) {
 
 TEST(ExternalStation, RefusesAgesThatLetNothingIn) {
   DiagramBuilder builder;
-  EXPECT_THROW(add_external_station(builder, bench(), {.max_age = 0ms}), SetupError);
+  EXPECT_THROW(add_external_station(builder, rig(), {.max_age = 0ms}), SetupError);
 }
 
 TEST(ExternalStation, ShowsAllButBrokenReadingsAsTheyAreInLockstep) {

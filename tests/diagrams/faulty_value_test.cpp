@@ -27,7 +27,7 @@ class Faulty {
 
  private:
   DiagramBuilder& wire(const std::string& text) {
-    const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+    const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::none));
     const RequestedFaults faults{{parse_fault(text, robot)}, 1ms, 7};
     auto& before = builder_.add<FaultyValue<Value>>("healthy", RequestedFault{.begin = 1h}, 1ms, 0U);
     healthy_ = builder_.export_input("truth", before.healthy);

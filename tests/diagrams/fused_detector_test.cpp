@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 
 #include "systems/foundation/setup_error.h"
-#include "tests/diagrams/contact_bench.h"
+#include "tests/diagrams/contact_rig.h"
 
 namespace flinch {
 namespace {
 
 using enum ReactionMode;
 using test::Bench;
-using test::BenchExperiment;
 using test::collision;
+using test::RigExperiment;
 using testing::HasSubstr;
 
 /// Judges by the encoders alone; the simulated robot is as modelled.
@@ -23,8 +23,8 @@ FusedDetectorSettings by_the_encoders() {
           .tracking = {}};
 }
 
-BenchExperiment with_fused_detector(const FusedDetectorSettings& settings) {
-  BenchExperiment experiment = collision(0.5);
+RigExperiment with_fused_detector(const FusedDetectorSettings& settings) {
+  RigExperiment experiment = collision(0.5);
   experiment.control.fused_detector = settings;
   experiment.control.stages.detectors.follow({"fused_detector", add_fused_detector});
   return experiment;
@@ -32,7 +32,7 @@ BenchExperiment with_fused_detector(const FusedDetectorSettings& settings) {
 
 std::string complaint(const FusedDetectorSettings& settings) {
   try {
-    const Bench bench(with_fused_detector(settings));
+    const Bench rig(with_fused_detector(settings));
   } catch (const SetupError& error) {
     return error.problems().front();
   }
@@ -62,7 +62,7 @@ TEST(FusedDetector, JudgesByTheLikelihoodRatioOfOnsetsWhereThatIsTheRule) {
 }
 
 TEST(FusedDetector, AddsAnEstimatorThatDoesNotRunAndUsesOneThatDoes) {
-  BenchExperiment both = with_fused_detector(by_the_encoders());
+  RigExperiment both = with_fused_detector(by_the_encoders());
   for (const WrenchEstimator& stage : known_stages().estimators.all) {
     if (stage.name == "disturbance_filter") both.control.stages.estimators.add(stage);
   }
@@ -73,19 +73,19 @@ TEST(FusedDetector, AddsAnEstimatorThatDoesNotRunAndUsesOneThatDoes) {
 }
 
 TEST(FusedDetector, TellsTheLoadsOfTheDrives) {
-  Bench bench(with_fused_detector(by_the_encoders()));
-  ASSERT_EQ(bench.control.others.loads.size(), 1U);
-  EXPECT_EQ(bench.control.others.loads[0].name, "load_fused_detector");
-  bench.run(300ms);
-  EXPECT_TRUE(bench.context.get(bench.control.others.loads[0].port).valid);
+  Bench rig(with_fused_detector(by_the_encoders()));
+  ASSERT_EQ(rig.control.others.loads.size(), 1U);
+  EXPECT_EQ(rig.control.others.loads[0].name, "load_fused_detector");
+  rig.run(300ms);
+  EXPECT_TRUE(rig.context.get(rig.control.others.loads[0].port).valid);
 }
 
 TEST(FusedDetector, WithoutResidualsMayRunButNotBeFollowed) {
   EXPECT_THAT(complaint({}), HasSubstr("flinch calibrate thresholds finds them"));
-  BenchExperiment beside = collision(0.5);
+  RigExperiment beside = collision(0.5);
   beside.control.stages.detectors.add({"fused_detector", add_fused_detector});
-  Bench bench(beside);
-  EXPECT_TRUE(bench.run_until(react, 3s)) << "by the contact detector";
+  Bench rig(beside);
+  EXPECT_TRUE(rig.run_until(react, 3s)) << "by the contact detector";
 }
 
 TEST(FusedDetector, FollowsTheDisturbanceFilterBehindItsOwnPoles) {

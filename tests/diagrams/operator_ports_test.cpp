@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/diagrams/contact_bench.h"
+#include "tests/diagrams/contact_rig.h"
 #include "tests/support/allocations.h"
 
 namespace flinch {
@@ -15,8 +15,8 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
-using test::BenchExperiment;
 using test::encoder_noise;
+using test::RigExperiment;
 using ::testing::Contains;
 using ::testing::Not;
 using After = OperatorEvent::After;
@@ -35,18 +35,18 @@ OperatorEvent go_to(After after, Time wait, const Eigen::Vector3d& pose) {
 }
 
 /// A robot that stands at `pose` when the run begins, and an operator.
-BenchExperiment standing_at(const Eigen::Vector3d& pose, std::vector<OperatorEvent> events) {
-  BenchExperiment experiment;
-  experiment.friction = BenchFriction::test_bench;
+RigExperiment standing_at(const Eigen::Vector3d& pose, std::vector<OperatorEvent> events) {
+  RigExperiment experiment;
+  experiment.friction = RigFriction::test_rig;
   experiment.station.encoder_noise = encoder_noise;
   experiment.station.pose = pose;
   experiment.script.events = std::move(events);
   return experiment;
 }
 
-std::vector<std::string> inputs_of(const Bench& bench) {
+std::vector<std::string> inputs_of(const Bench& rig) {
   std::vector<std::string> names;
-  for (const System::Input& input : bench.diagram->inputs()) names.push_back(input.name);
+  for (const System::Input& input : rig.diagram->inputs()) names.push_back(input.name);
   return names;
 }
 
@@ -61,40 +61,40 @@ TEST(OperatorPorts, AreInputsOfTheDiagramUnderNamesThatSayWhoActs) {
 }
 
 TEST(AScript, BringsARobotBackThatStandsOutsideWithoutAllocating) {
-  Bench bench(standing_at(
+  Bench rig(standing_at(
       far_out, {press(After::time, 400ms, {.reset = true}), go_to(After::recovering, 100ms, inside)}));
-  bench.run(300ms);
+  rig.run(300ms);
   const test::AllocationCounter counter;
-  bench.run(150ms);
-  EXPECT_EQ(bench.state().mode, recover);
-  EXPECT_LT((bench.pose() - far_out).norm(), 1e-3);
-  bench.run(4s);
+  rig.run(150ms);
+  EXPECT_EQ(rig.state().mode, recover);
+  EXPECT_LT((rig.pose() - far_out).norm(), 1e-3);
+  rig.run(4s);
   EXPECT_EQ(counter.count(), 0);
-  EXPECT_EQ(bench.state().mode, nominal);
-  EXPECT_LT((bench.pose() - inside).norm(), 1e-3);
+  EXPECT_EQ(rig.state().mode, nominal);
+  EXPECT_LT((rig.pose() - inside).norm(), 1e-3);
 }
 
 TEST(AScript, GoesOnFromAStopOfItsOwn) {
-  Bench bench(standing_at(
+  Bench rig(standing_at(
       inside, {press(After::time, 400ms, {.stop = true}), press(After::ended, 100ms, {.reset = true})}));
-  bench.run(450ms);
-  EXPECT_EQ(bench.gate().phase, GatePhase::closed);
-  EXPECT_EQ(bench.gate().fault, GateFault::operator_stop);
-  bench.run(100ms);
-  EXPECT_EQ(bench.state().mode, nominal);
+  rig.run(450ms);
+  EXPECT_EQ(rig.gate().phase, GatePhase::closed);
+  EXPECT_EQ(rig.gate().fault, GateFault::operator_stop);
+  rig.run(100ms);
+  EXPECT_EQ(rig.state().mode, nominal);
 }
 
 TEST(AScript, DoesNotResetWhatThePanelHasStopped) {
-  Bench bench(standing_at(inside, {press(After::ended, 100ms, {.reset = true})}));
-  bench.run(400ms);
-  bench.press({.stop = true});
-  bench.tick();
-  bench.press({});
-  bench.run(1s);
-  EXPECT_EQ(bench.gate().phase, GatePhase::closed);
-  bench.reset();
-  bench.run(10ms);
-  EXPECT_EQ(bench.state().mode, nominal) << "the panel does";
+  Bench rig(standing_at(inside, {press(After::ended, 100ms, {.reset = true})}));
+  rig.run(400ms);
+  rig.press({.stop = true});
+  rig.tick();
+  rig.press({});
+  rig.run(1s);
+  EXPECT_EQ(rig.gate().phase, GatePhase::closed);
+  rig.reset();
+  rig.run(10ms);
+  EXPECT_EQ(rig.state().mode, nominal) << "the panel does";
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ class RandomReadings final : public System {
 Recording record(const Diagram& diagram) {
   std::vector<std::string> paths;
   for (const System::Output& output : diagram.outputs()) paths.push_back(output.name);
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::none));
   Recorder recorder(diagram, paths, ticks, quantity_units(robot));
   Simulator simulator(diagram);
   simulator.record(recorder);

@@ -15,8 +15,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 const PlanarRrr& robot() {
-  static const PlanarRrr bench(bench_robot(BenchGeometry::nominal, BenchFriction::none));
-  return bench;
+  static const PlanarRrr rig(rig_robot(RigGeometry::nominal, RigFriction::none));
+  return rig;
 }
 
 std::string complaint(const std::string& text) {

@@ -27,12 +27,12 @@ struct AtHome {
   double sigma_sc = 0.0;
 };
 
-TEST(RobotConstraints, AreThoseOfThePapersAtTheBench) {
-  const AtHome bench(shipped("planar_3rrr"));
-  EXPECT_EQ(bench.constraints.sigma_kappa.activation, 12.0);
-  EXPECT_EQ(bench.constraints.sigma_kappa.safety, 15.0);
-  EXPECT_EQ(bench.constraints.sigma_sc.activation, 0.178);
-  EXPECT_EQ(bench.constraints.sigma_sc.safety, 0.17);
+TEST(RobotConstraints, AreThoseOfThePapersAtTheRig) {
+  const AtHome rig(shipped("planar_3rrr"));
+  EXPECT_EQ(rig.constraints.sigma_kappa.activation, 12.0);
+  EXPECT_EQ(rig.constraints.sigma_kappa.safety, 15.0);
+  EXPECT_EQ(rig.constraints.sigma_sc.activation, 0.178);
+  EXPECT_EQ(rig.constraints.sigma_sc.safety, 0.17);
 }
 
 TEST(RobotConstraints, HaveEveryShippedRobotInsideThemAtHome) {

@@ -47,14 +47,14 @@ TEST_P(ShippedRobot, IsBoundedByItsFile) {
 }
 
 TEST(RobotSettings, AreForTheBenchThoseOfTheTables) {
-  const ContactControlSettings bench = settings_of(shipped("planar_3rrr")), standard;
-  EXPECT_NEAR(bench.controlled_stop.damping, standard.controlled_stop.damping, 0.5);
-  EXPECT_NEAR(bench.faults.max_unseen_current, standard.faults.max_unseen_current, 0.01);
-  EXPECT_EQ(bench.sequence.rest_speed, standard.sequence.rest_speed);
-  EXPECT_EQ(bench.faults.max_joint_speed, standard.faults.max_joint_speed);
-  EXPECT_EQ(bench.torque_gate.max_torque, standard.torque_gate.max_torque);
-  EXPECT_NEAR(bench.tasks.levels.velocity_gain, standard.tasks.levels.velocity_gain, 0.01);
-  EXPECT_NEAR(bench.tasks.levels.velocity_feedforward, standard.tasks.levels.velocity_feedforward, 1e-3);
+  const ContactControlSettings rig = settings_of(shipped("planar_3rrr")), standard;
+  EXPECT_NEAR(rig.controlled_stop.damping, standard.controlled_stop.damping, 0.5);
+  EXPECT_NEAR(rig.faults.max_unseen_current, standard.faults.max_unseen_current, 0.01);
+  EXPECT_EQ(rig.sequence.rest_speed, standard.sequence.rest_speed);
+  EXPECT_EQ(rig.faults.max_joint_speed, standard.faults.max_joint_speed);
+  EXPECT_EQ(rig.torque_gate.max_torque, standard.torque_gate.max_torque);
+  EXPECT_NEAR(rig.tasks.levels.velocity_gain, standard.tasks.levels.velocity_gain, 0.01);
+  EXPECT_NEAR(rig.tasks.levels.velocity_feedforward, standard.tasks.levels.velocity_feedforward, 1e-3);
 }
 
 TEST(RobotSettings, AreAsStiffAsPublishedWhereThePlatformCanFollow) {
@@ -65,7 +65,7 @@ TEST(RobotSettings, AreAsStiffAsPublishedWhereThePlatformCanFollow) {
   }
 }
 
-/// The mass matrix of the platform at home is `share` of that of the bench.
+/// The mass matrix of the platform at home is `share` of that of the rig.
 void expect_natural_frequency(double share, double frequency) {
   RobotFile file = shipped("planar_3rrr");
   const JointVector legs = JointVector::Constant(3, share);

@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "systems/framework/constant.h"
-#include "tests/diagrams/contact_bench.h"
+#include "tests/diagrams/contact_rig.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/unsure_classifier.h"
 
 namespace flinch {
@@ -19,12 +19,12 @@ namespace {
 
 using enum ReactionMode;
 using test::Bench;
-using test::BenchExperiment;
 using test::collision;
+using test::RigExperiment;
 
 /// `law`, told from the start what will be touched; -1: that nobody knows.
 ControlLaw told(ControlLaw law, int touched) {
-  return {law.name, [law, touched](const StageSite& site, const ReactionPorts& given) {
+  return {law.name, [law, touched](const StageContext& site, const ReactionPorts& given) {
             ContactClassification classification;
             classification.valid = classification.accepted = touched >= 0;
             classification.most_likely = touched;
@@ -43,11 +43,11 @@ class TaskStages : public ::testing::TestWithParam<int> {
   }
   ControlLaw reaction() const { return task_reaction_stages()[static_cast<std::size_t>(GetParam())]; }
   /// Tracks and reacts on one level; the platform will be touched.
-  BenchExperiment experiment(double speed) const {
-    BenchExperiment experiment = collision(speed);
+  RigExperiment experiment(double speed) const {
+    RigExperiment experiment = collision(speed);
     experiment.control.stages.nominal_laws.follow(tracking());
     experiment.control.stages.reaction_laws.follow(told(reaction(), 0));
-    if (GetParam() == strict) keep_constraints_strictly(*test::planar_bench(), experiment.control);
+    if (GetParam() == strict) keep_constraints_strictly(*test::planar_rig(), experiment.control);
     return experiment;
   }
 };
@@ -59,45 +59,45 @@ std::string level_name(const ::testing::TestParamInfo<int>& level) {
 INSTANTIATE_TEST_SUITE_P(Levels, TaskStages, ::testing::Range(0, 4), level_name);
 
 TEST_P(TaskStages, AContactIsAnsweredAndHeldUntilTheOperatorEndsIt) {
-  Bench bench(experiment(0.5));
-  ASSERT_TRUE(bench.run_until(react, 1500ms));
-  ASSERT_TRUE(bench.run_until(hold, 1000ms));
-  bench.run(200ms);
-  EXPECT_EQ(bench.state().mode, hold);
-  EXPECT_LT(bench.velocity().norm(), 0.01);
-  bench.reset();
-  bench.tick();
-  EXPECT_EQ(bench.state().mode, nominal);
+  Bench rig(experiment(0.5));
+  ASSERT_TRUE(rig.run_until(react, 1500ms));
+  ASSERT_TRUE(rig.run_until(hold, 1000ms));
+  rig.run(200ms);
+  EXPECT_EQ(rig.state().mode, hold);
+  EXPECT_LT(rig.velocity().norm(), 0.01);
+  rig.reset();
+  rig.tick();
+  EXPECT_EQ(rig.state().mode, nominal);
 }
 
 TEST_P(TaskStages, AContactThatNobodyKnowsIsAnsweredByBraking) {
-  BenchExperiment unknown = experiment(0.5);
+  RigExperiment unknown = experiment(0.5);
   unknown.control.stages.reaction_laws = {};
   unknown.control.stages.reaction_laws.follow(reaction());
-  Bench bench(unknown);
-  ASSERT_TRUE(bench.run_until(react, 1500ms));
-  bench.run(500ms);
-  EXPECT_LT(bench.velocity().norm(), 0.02);
-  EXPECT_EQ(bench.gate().phase, GatePhase::open);
+  Bench rig(unknown);
+  ASSERT_TRUE(rig.run_until(react, 1500ms));
+  rig.run(500ms);
+  EXPECT_LT(rig.velocity().norm(), 0.02);
+  EXPECT_EQ(rig.gate().phase, GatePhase::open);
 }
 
 // The whole chain with a network in it, which names the right class with a probability of 1/10.
 TEST_P(TaskStages, AClassBelowTheMarginIsAnsweredAsOneThatNobodyKnows) {
   const auto comes_to_rest_at = [this](std::optional<double> accept) {
-    BenchExperiment doubtful = experiment(0.5);
+    RigExperiment doubtful = experiment(0.5);
     doubtful.control.stages.reaction_laws = {};
     doubtful.control.stages.reaction_laws.follow(accept ? reaction() : told(reaction(), -1));
     doubtful.control.stages.classifiers.follow(test::unsure_classifier(accept.value_or(1.0)));
-    Bench bench(doubtful);
-    EXPECT_TRUE(bench.run_until(react, 1500ms));
-    const ContactClassification& said = bench.context.get(bench.control.classification);
+    Bench rig(doubtful);
+    EXPECT_TRUE(rig.run_until(react, 1500ms));
+    const ContactClassification& said = rig.context.get(rig.control.classification);
     EXPECT_TRUE(said.valid);
     EXPECT_EQ(said.most_likely, 0);
     EXPECT_EQ(said.accepted, accept.value_or(1.0) < 0.1);
-    bench.run(600ms);
-    EXPECT_EQ(bench.gate().phase, GatePhase::open);
-    EXPECT_LT(bench.velocity().norm(), 0.02);
-    return bench.pose();
+    rig.run(600ms);
+    EXPECT_EQ(rig.gate().phase, GatePhase::open);
+    EXPECT_LT(rig.velocity().norm(), 0.02);
+    return rig.pose();
   };
   const Eigen::Vector3d unknown = comes_to_rest_at(std::nullopt);
   EXPECT_EQ(comes_to_rest_at(0.101), unknown);
@@ -105,41 +105,41 @@ TEST_P(TaskStages, AClassBelowTheMarginIsAnsweredAsOneThatNobodyKnows) {
 }
 
 TEST_P(TaskStages, TheControlPathDoesNotAllocateWhileItReacts) {
-  Bench bench(experiment(0.5));
-  bench.run(50ms);
+  Bench rig(experiment(0.5));
+  rig.run(50ms);
   const test::AllocationCounter counter;
-  bench.run_until(hold, 2500ms);
+  rig.run_until(hold, 2500ms);
   EXPECT_EQ(counter.count(), 0);
-  EXPECT_EQ(bench.state().mode, hold);
+  EXPECT_EQ(rig.state().mode, hold);
 }
 
 TEST_P(TaskStages, WhetherTheRobotCouldStopIsJudgedAtTheDetectionAndKept) {
-  Bench bench(experiment(0.5));
-  ASSERT_TRUE(bench.run_until(react, 1500ms));
-  const BrakingStatus judged = bench.context.get(bench.control.braking);
+  Bench rig(experiment(0.5));
+  ASSERT_TRUE(rig.run_until(react, 1500ms));
+  const BrakingStatus judged = rig.context.get(rig.control.braking);
   EXPECT_TRUE(judged.valid && judged.stays_inside);
-  EXPECT_EQ(judged.judged, bench.state().since);
+  EXPECT_EQ(judged.judged, rig.state().since);
   EXPECT_GT(judged.duration, 0.0);
-  ASSERT_TRUE(bench.run_until(hold, 1000ms));
-  EXPECT_EQ(bench.context.get(bench.control.braking).judged, judged.judged);
+  ASSERT_TRUE(rig.run_until(hold, 1000ms));
+  EXPECT_EQ(rig.context.get(rig.control.braking).judged, judged.judged);
 }
 
-TEST(BrakingWatch, JudgesNothingWhereLimitsAreNeverKept) {
-  BenchExperiment experiment = collision(0.5);
+TEST(BrakingMonitor, JudgesNothingWhereLimitsAreNeverKept) {
+  RigExperiment experiment = collision(0.5);
   experiment.control.limits.use = SafetyFilterSettings::Use::never;
-  Bench bench(experiment);
-  ASSERT_TRUE(bench.run_until(react, 1500ms));
-  EXPECT_FALSE(bench.context.get(bench.control.braking).valid);
+  Bench rig(experiment);
+  ASSERT_TRUE(rig.run_until(react, 1500ms));
+  EXPECT_FALSE(rig.context.get(rig.control.braking).valid);
 }
 
 // No switch of the sequence makes a step in the torques that the laws ask for.
 TEST_P(TaskStages, TorquesNeverChangeFasterThanTheGateLetsThem) {
-  Bench bench(experiment(0.5));
+  Bench rig(experiment(0.5));
   JointVector before = JointVector::Zero(3);
   double largest = 0.0;
   bool passed = false;
-  bench.run(2500ms, [&] {
-    const TorqueCommand& asked = bench.context.get(bench.control.requested_torque);
+  rig.run(2500ms, [&] {
+    const TorqueCommand& asked = rig.context.get(rig.control.requested_torque);
     if (!asked.valid) return;
     if (passed) largest = std::max(largest, (asked.torque - before).lpNorm<Eigen::Infinity>());
     before = asked.torque;
@@ -150,13 +150,12 @@ TEST_P(TaskStages, TorquesNeverChangeFasterThanTheGateLetsThem) {
 }
 
 TEST_P(TaskStages, OnlyTheStrictReactionIsFollowedAtOnce) {
-  Bench bench(experiment(0.5));
-  const OutputPort<TorqueCommand> law{bench.diagram->tap("control/" + reaction().name + "/torque").port};
-  ASSERT_TRUE(bench.run_until(react, 1500ms));
+  Bench rig(experiment(0.5));
+  const OutputPort<TorqueCommand> law{rig.diagram->tap("control/" + reaction().name + "/torque").port};
+  ASSERT_TRUE(rig.run_until(react, 1500ms));
   int ticks = 1;
-  while (ticks < 100 &&
-         bench.context.get(bench.control.requested_torque).torque != bench.context.get(law).torque) {
-    bench.tick();
+  while (ticks < 100 && rig.context.get(rig.control.requested_torque).torque != rig.context.get(law).torque) {
+    rig.tick();
     ++ticks;
   }
   if (GetParam() == strict) {
@@ -179,7 +178,7 @@ TEST(TheStrictReaction, LetsTheSafetyFilterHoldTheSafetyValuesOfTheConstraints) 
   ContactControlSettings settings;
   settings.tasks.constraints.sigma_kappa.safety = 9.0;
   settings.tasks.constraints.sigma_sc.safety = 0.12;
-  keep_constraints_strictly(*test::planar_bench(), settings);
+  keep_constraints_strictly(*test::planar_rig(), settings);
   EXPECT_EQ(settings.limits.use, SafetyFilterSettings::Use::always);
   EXPECT_EQ(settings.limits.limits.max_condition_number, 9.0);
   EXPECT_EQ(settings.limits.limits.workspace.min_self_collision_distance, 0.12);
@@ -187,7 +186,7 @@ TEST(TheStrictReaction, LetsTheSafetyFilterHoldTheSafetyValuesOfTheConstraints) 
 
 // Where each drive is at its limit, whichever way the platform moves: the least of all directions.
 TEST(TheStrictReaction, LimitsThePlatformsSpeedByThatOfTheDrives) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   ContactControlSettings settings;
   settings.limits.max_drive_speed = 7.6;
   keep_constraints_strictly(*robot, settings);
@@ -208,7 +207,7 @@ TEST(TheStrictReaction, NeverLoosensALimitOfTheRobot) {
   settings.limits.max_drive_speed = 7.6;
   settings.limits.limits.max_condition_number = 5.0;
   settings.limits.limits.workspace.min_self_collision_distance = 0.3;
-  keep_constraints_strictly(*test::planar_bench(), settings);
+  keep_constraints_strictly(*test::planar_rig(), settings);
   EXPECT_EQ(settings.limits.max_platform_speed, 0.5);
   EXPECT_EQ(settings.limits.limits.max_condition_number, 5.0);
   EXPECT_EQ(settings.limits.limits.workspace.min_self_collision_distance, 0.3);

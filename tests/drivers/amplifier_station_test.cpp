@@ -60,8 +60,7 @@ class CommandedAmplifiers {
  private:
   std::unique_ptr<Diagram> build() {
     DiagramBuilder builder;
-    const auto robot =
-        std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+    const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
     fieldbus_ = add_external_station(builder, robot);
     station_ = add_amplifier_station(builder, fieldbus_);
     return builder.build();

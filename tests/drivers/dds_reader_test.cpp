@@ -67,9 +67,9 @@ TEST_F(ListensToACommander, ThatHangsAndCountsItsDeadlinesAndItsSilence) {
   commander_.stop();
   const Time stopped = MonotonicClock::now();
   ASSERT_TRUE(wait_until([this] { return since().silences >= 1; }));
-  const Time noticed = MonotonicClock::now() - stopped;
-  std::cout << "a hung commander detected after " << 1e3 * to_seconds(noticed) << " ms, " << since().deadlines
-            << " deadlines missed by then" << std::endl;
+  const Time detected = MonotonicClock::now() - stopped;
+  std::cout << "a hung commander detected after " << 1e3 * to_seconds(detected) << " ms, "
+            << since().deadlines << " deadlines missed by then" << std::endl;
   EXPECT_TRUE(wait_until([this] { return since().deadlines >= 3; }));
 
   commander_.resume();

@@ -103,8 +103,7 @@ class NearEnd {
  private:
   std::unique_ptr<Diagram> build() {
     DiagramBuilder builder("near");
-    const auto robot =
-        std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+    const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
     station_ = add_external_station(builder, robot, {.max_age = 20ms});
     auto& controller = builder.add<NearController>("controller");
     builder.connect(station_.joints, controller.joints);

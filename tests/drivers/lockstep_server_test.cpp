@@ -98,8 +98,7 @@ class SteppingEnd {
  private:
   std::unique_ptr<Diagram> build(bool force_torque) {
     DiagramBuilder builder("near");
-    const auto robot =
-        std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+    const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
     station_ = add_external_station(builder, robot, {.force_torque = force_torque, .lockstep = true});
     auto& controller = builder.add<NearController>("controller");
     builder.connect(station_.joints, controller.joints);

@@ -19,9 +19,9 @@ constexpr RequestedDriveState quick_stop{.state = RequestedDriveState::State::qu
                                          .engage_brake = false};
 
 /// A powered station whose bare one says what the test wants, commanded 1, 2, 3 Nm without brakes.
-class PoweredBench {
+class PoweredRig {
  public:
-  PoweredBench() : diagram_(build()), context_(diagram_->make_context()) {}
+  PoweredRig() : diagram_(build()), context_(diagram_->make_context()) {}
 
   /// One tick; returns the state that the drives tell in it.
   DriveState tick(const RequestedDriveState& wish) {
@@ -67,8 +67,7 @@ class PoweredBench {
  private:
   std::unique_ptr<Diagram> build() {
     DiagramBuilder builder;
-    const auto robot =
-        std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+    const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
     bare_ = add_external_station(builder, robot);
     station_ = add_powered_station(builder, bare_);
     wish_ = builder.export_input("wish", station_.wish);
@@ -89,81 +88,81 @@ class PoweredBench {
 };
 
 TEST(PoweredStation, IsSwitchedOnStepByStepAndPassesTorqueInOperationOnly) {
-  PoweredBench bench;
+  PoweredRig rig;
   const DriveState expected[] = {not_ready_to_switch_on, switch_on_disabled, ready_to_switch_on, switched_on,
                                  operation_enabled,      operation_enabled};
   for (const DriveState state : expected) {
-    EXPECT_EQ(bench.tick(operation), state);
-    EXPECT_EQ(bench.moves, state == operation_enabled);
-    EXPECT_EQ(bench.is_held, state != operation_enabled);
-    EXPECT_EQ(bench.told.enabled, state == operation_enabled);
+    EXPECT_EQ(rig.tick(operation), state);
+    EXPECT_EQ(rig.moves, state == operation_enabled);
+    EXPECT_EQ(rig.is_held, state != operation_enabled);
+    EXPECT_EQ(rig.told.enabled, state == operation_enabled);
   }
 }
 
 TEST(PoweredStation, StaysWithoutVoltageWhereNobodyWishesAnything) {
-  PoweredBench bench;
-  for (const DriveState state : bench.tick(RequestedDriveState(), 20)) {
+  PoweredRig rig;
+  for (const DriveState state : rig.tick(RequestedDriveState(), 20)) {
     EXPECT_TRUE(state == not_ready_to_switch_on || state == switch_on_disabled);
   }
-  EXPECT_TRUE(bench.is_held);
+  EXPECT_TRUE(rig.is_held);
 }
 
 TEST(PoweredStation, IsNotReadyBeforeItsStationSaysAnything) {
-  PoweredBench bench;
-  bench.status.valid = false;
-  for (const DriveState state : bench.tick(operation, 20)) EXPECT_EQ(state, not_ready_to_switch_on);
+  PoweredRig rig;
+  rig.status.valid = false;
+  for (const DriveState state : rig.tick(operation, 20)) EXPECT_EQ(state, not_ready_to_switch_on);
 }
 
 TEST(PoweredStation, DropsOutOfOperationAtAFaultAndIsResetByANewRequestOnly) {
-  PoweredBench bench;
-  bench.tick(operation, 10);
-  ASSERT_TRUE(bench.moves);
-  bench.status.fault = true;
-  bench.tick(operation, 2);
-  EXPECT_TRUE(bench.is_held);
-  EXPECT_TRUE(bench.told.fault);
+  PoweredRig rig;
+  rig.tick(operation, 10);
+  ASSERT_TRUE(rig.moves);
+  rig.status.fault = true;
+  rig.tick(operation, 2);
+  EXPECT_TRUE(rig.is_held);
+  EXPECT_TRUE(rig.told.fault);
 
   RequestedDriveState reset = operation;
   reset.fault_resets = 1;  // while the fault is still there
-  EXPECT_EQ(bench.tick(reset, 10).back(), fault);
-  bench.status.fault = false;
-  EXPECT_EQ(bench.tick(reset, 10).back(), fault);  // the same request does not count twice
-  EXPECT_TRUE(bench.told.fault);
+  EXPECT_EQ(rig.tick(reset, 10).back(), fault);
+  rig.status.fault = false;
+  EXPECT_EQ(rig.tick(reset, 10).back(), fault);  // the same request does not count twice
+  EXPECT_TRUE(rig.told.fault);
   reset.fault_resets = 2;
-  EXPECT_EQ(bench.tick(reset, 10).back(), operation_enabled);
-  EXPECT_TRUE(bench.moves);
-  EXPECT_FALSE(bench.told.fault);
+  EXPECT_EQ(rig.tick(reset, 10).back(), operation_enabled);
+  EXPECT_TRUE(rig.moves);
+  EXPECT_FALSE(rig.told.fault);
 }
 
 TEST(PoweredStation, ReactsToAFaultUntilItStandsStill) {
-  PoweredBench bench;
-  bench.tick(operation, 10);
-  bench.status.fault = true;
-  bench.speed = 1.0;
-  EXPECT_EQ(bench.tick(operation, 20).back(), fault_reaction_active);
-  EXPECT_TRUE(bench.is_held);
-  bench.speed = 0.0;
-  EXPECT_EQ(bench.tick(operation, 3).back(), fault);
+  PoweredRig rig;
+  rig.tick(operation, 10);
+  rig.status.fault = true;
+  rig.speed = 1.0;
+  EXPECT_EQ(rig.tick(operation, 20).back(), fault_reaction_active);
+  EXPECT_TRUE(rig.is_held);
+  rig.speed = 0.0;
+  EXPECT_EQ(rig.tick(operation, 3).back(), fault);
 }
 
 TEST(PoweredStation, LosesTorqueWithAQuickStopAndItsVoltageAtStandstill) {
-  PoweredBench bench;
-  bench.tick(operation, 10);
-  bench.speed = 1.0;
-  bench.tick(quick_stop);
-  for (const DriveState state : bench.tick(quick_stop, 20)) EXPECT_EQ(state, quick_stop_active);
-  EXPECT_TRUE(bench.is_held);
-  bench.speed = 0.0;
-  EXPECT_EQ(bench.tick(quick_stop, 3).back(), switch_on_disabled);
+  PoweredRig rig;
+  rig.tick(operation, 10);
+  rig.speed = 1.0;
+  rig.tick(quick_stop);
+  for (const DriveState state : rig.tick(quick_stop, 20)) EXPECT_EQ(state, quick_stop_active);
+  EXPECT_TRUE(rig.is_held);
+  rig.speed = 0.0;
+  EXPECT_EQ(rig.tick(quick_stop, 3).back(), switch_on_disabled);
 }
 
 TEST(PoweredStation, IsBrakedWithinTwoTicksWhereTheWishFallsBackToNothing) {
-  PoweredBench bench;
-  bench.tick(operation, 10);
-  ASSERT_TRUE(bench.moves);
-  bench.tick(RequestedDriveState(), 2);  // as DdsServer wishes when who commands falls silent
-  EXPECT_TRUE(bench.is_held);
-  EXPECT_EQ(bench.tick(RequestedDriveState()), switch_on_disabled);
+  PoweredRig rig;
+  rig.tick(operation, 10);
+  ASSERT_TRUE(rig.moves);
+  rig.tick(RequestedDriveState(), 2);  // as DdsServer wishes when who commands falls silent
+  EXPECT_TRUE(rig.is_held);
+  EXPECT_EQ(rig.tick(RequestedDriveState()), switch_on_disabled);
 }
 
 }  // namespace

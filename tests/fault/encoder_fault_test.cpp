@@ -1,17 +1,17 @@
-// What broken encoders do to the whole bench, in closed loop.
+// What broken encoders do to the whole rig, in closed loop.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
-#include "tests/fault/guarded_bench.h"
+#include "tests/fault/guarded_rig.h"
 
 namespace flinch {
 namespace {
 
 using test::EncoderDamage;
-using test::GuardedBench;
 using test::GuardedBenchSettings;
+using test::GuardedRig;
 using test::middle_of_passage;
 using test::passing_at;
 
@@ -40,11 +40,11 @@ GuardedBenchSettings without_encoder_faults(GuardedBenchSettings settings) {
 /// How long after the damage, in the middle of a passage, the fault shows.
 std::optional<Time> time_to_find(FaultMask faults, const GuardedBenchSettings& settings, double speed,
                                  const EncoderDamage& damage) {
-  GuardedBench bench(settings);
-  bench.run_until(middle_of_passage(speed));
-  EXPECT_EQ(bench.gate().phase, GatePhase::open);
-  bench.damage(damage);
-  return bench.time_until(faults, 100ms);
+  GuardedRig rig(settings);
+  rig.run_until(middle_of_passage(speed));
+  EXPECT_EQ(rig.gate().phase, GatePhase::open);
+  rig.damage(damage);
+  return rig.time_until(faults, 100ms);
 }
 
 // ---------------------------------------------------------------- frozen
@@ -92,15 +92,15 @@ TEST_P(FrozenEncoder, IsFoundWhenAllAreFrozenTogether) {
 
 TEST_P(FrozenEncoder, EndsInClosedBrakesAndRest) {
   for (const EncoderDamage& damage : {frozen(0), frozen(1), frozen(2), all_frozen()}) {
-    GuardedBench bench(passing_at(speed()));
-    bench.run_until(middle_of_passage(speed()));
-    const Eigen::Vector3d where = bench.pose();
-    bench.damage(damage);
-    bench.run_until(bench.now() + 400ms);
-    EXPECT_NE(fault_bit(bench.gate().fault) & encoder_faults, FaultMask{0});
-    EXPECT_EQ(bench.gate().reaction, GateReaction::zero_torque_and_brake);
-    EXPECT_LT(bench.velocity().norm(), 1e-3);
-    EXPECT_LT((bench.pose() - where).head<2>().norm(), 0.03);
+    GuardedRig rig(passing_at(speed()));
+    rig.run_until(middle_of_passage(speed()));
+    const Eigen::Vector3d where = rig.pose();
+    rig.damage(damage);
+    rig.run_until(rig.now() + 400ms);
+    EXPECT_NE(fault_bit(rig.gate().fault) & encoder_faults, FaultMask{0});
+    EXPECT_EQ(rig.gate().reaction, GateReaction::zero_torque_and_brake);
+    EXPECT_LT(rig.velocity().norm(), 1e-3);
+    EXPECT_LT((rig.pose() - where).head<2>().norm(), 0.03);
   }
 }
 
@@ -108,14 +108,14 @@ TEST_P(FrozenEncoder, EndsInClosedBrakesAndRest) {
 
 TEST(JumpingEncoder, ClosesTheBrakesBeforeItsVelocityBecomesTorque) {
   for (const double jump : {0.05, -2.0}) {
-    GuardedBench bench(passing_at(0.3));
-    bench.run_until(middle_of_passage(0.3));
-    bench.damage({.active_frozen = {}, .passive_frozen = false, .active_offset = {0.0, jump, 0.0}});
-    bench.tick();
-    EXPECT_EQ(bench.gate().fault, GateFault::encoder_jump);
-    EXPECT_FALSE(bench.torque().valid);
-    bench.run_until(bench.now() + 400ms);
-    EXPECT_LT(bench.velocity().norm(), 1e-3);
+    GuardedRig rig(passing_at(0.3));
+    rig.run_until(middle_of_passage(0.3));
+    rig.damage({.active_frozen = {}, .passive_frozen = false, .active_offset = {0.0, jump, 0.0}});
+    rig.tick();
+    EXPECT_EQ(rig.gate().fault, GateFault::encoder_jump);
+    EXPECT_FALSE(rig.torque().valid);
+    rig.run_until(rig.now() + 400ms);
+    EXPECT_LT(rig.velocity().norm(), 1e-3);
   }
 }
 
@@ -125,13 +125,12 @@ void expect_healthy_encoders(const GuardedBenchSettings& settings, Time duration
   for (const bool ideal : {false, true}) {
     GuardedBenchSettings each = settings;
     if (ideal) each.station = with_ideal_sensors(settings.station);
-    GuardedBench bench(each);
-    while (bench.now() < duration) {
-      bench.tick();
-      ASSERT_EQ(bench.faults() & encoder_faults, FaultMask{0})
-          << bench.now() / 1ms << " ms, ideal: " << ideal;
+    GuardedRig rig(each);
+    while (rig.now() < duration) {
+      rig.tick();
+      ASSERT_EQ(rig.faults() & encoder_faults, FaultMask{0}) << rig.now() / 1ms << " ms, ideal: " << ideal;
     }
-    EXPECT_NE(bench.gate().phase, GatePhase::waiting);
+    EXPECT_NE(rig.gate().phase, GatePhase::waiting);
   }
 }
 
@@ -150,7 +149,7 @@ void collide(double speed, bool reacts) {
   GuardedBenchSettings settings = passing_at(speed);
   ObstacleForm post;
   post.position_in_base = {0.2, 0.0, 0.0};
-  settings.station.bench.obstacles = {std::make_shared<const FixedObstacle>(post)};
+  settings.station.rig.obstacles = {std::make_shared<const FixedObstacle>(post)};
   if (!reacts) {
     settings.control.contact_detector.reaction = {1e6, 1e6};
     settings.control.contact_detector.hard = {1e6, 1e6};

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "systems/framework/realtime_runner.h"
-#include "tests/fault/guarded_bench.h"
+#include "tests/fault/guarded_rig.h"
 #include "tests/systems/framework/realtime_station.h"
 
 namespace flinch {
@@ -11,21 +11,21 @@ namespace {
 /// Runs 700 ticks, the one at 500 ms as late as told, and shows what the gate says then.
 struct LateTick {
   explicit LateTick(Time lateness) {
-    test::GuardedBench bench(test::passing_at(0.3));
+    test::GuardedRig rig(test::passing_at(0.3));
     test::FakeClockTicks clock;
     test::Calls exchange;
     exchange.before = [&](Context& context) {
       clock.wake_delay = context.time() == 499ms ? lateness : Time::zero();
     };
     exchange.after = [&](const Context& context) {
-      if (context.time() == 499ms) before = bench.gate();
-      if (context.time() == 500ms) then = bench.gate();
-      if (context.time() == 500ms) torque = bench.torque().valid;
+      if (context.time() == 499ms) before = rig.gate();
+      if (context.time() == 500ms) then = rig.gate();
+      if (context.time() == 500ms) torque = rig.torque().valid;
     };
-    RealtimeRunner runner(bench.diagram(), clock, exchange, std::make_unique<SundialsIntegrator>());
-    runner.feed_timing(bench.timing());
-    runner.run(bench.context(), 700ms);
-    later = bench.gate();
+    RealtimeRunner runner(rig.diagram(), clock, exchange, std::make_unique<SundialsIntegrator>());
+    runner.feed_timing(rig.timing());
+    runner.run(rig.context(), 700ms);
+    later = rig.gate();
   }
 
   GateStatus before, then, later;
@@ -48,9 +48,9 @@ TEST(LateLoop, GoesOnWithinTheLimit) {
 }
 
 TEST(LateLoop, DoesNotExistInSimulatedTime) {
-  test::GuardedBench bench(test::passing_at(0.3));
-  bench.run_until(700ms);
-  EXPECT_EQ(bench.gate().phase, GatePhase::open);
+  test::GuardedRig rig(test::passing_at(0.3));
+  rig.run_until(700ms);
+  EXPECT_EQ(rig.gate().phase, GatePhase::open);
 }
 
 }  // namespace

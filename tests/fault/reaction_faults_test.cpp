@@ -75,7 +75,7 @@ Ending ending_of(const SimulatedScenario& scenario, Time failure) {
   test::ScenarioLoop loop(scenario);
   const Context& context = loop.context;
   const ParallelRobot& robot = *scenario.robot.robot;
-  const int last_obstacle = static_cast<int>(scenario.station.bench.obstacles.size()) - 1;
+  const int last_obstacle = static_cast<int>(scenario.station.rig.obstacles.size()) - 1;
   Ending ending;
   Kinematics at;
   bool without_power = false;
@@ -371,7 +371,7 @@ std::shared_ptr<const Obstacle> intruder(const ParallelRobot& robot, const Begin
 TEST(AReaction, InTheMidstOfWhichAnotherBodyIsTouchedEndsAtRestWithinTheWorkspace) {
   const Failure second = [](SimulatedScenario& scenario, const Begin& begin,
                             std::mt19937& random) -> std::optional<Time> {
-    scenario.station.bench.obstacles.push_back(intruder(*scenario.robot.robot, begin, random));
+    scenario.station.rig.obstacles.push_back(intruder(*scenario.robot.robot, begin, random));
     try {
       const std::optional<Begin> now = reaction_of(scenario);
       if (!now || now->time != begin.time) return std::nullopt;  // it touched before

@@ -1,5 +1,5 @@
 // Parameter files of calibrations, and a robot and a control path that take them over.
-#include "experiments/scenario/calibration_doubts.h"
+#include "experiments/scenario/calibration_warnings.h"
 #include "experiments/scenario/scenario.h"
 #include "experiments/scenario/scenario_calibrations.h"
 #include "systems/config/parameter_file.h"
@@ -29,7 +29,7 @@ void read(std::string_view bytes) {
   calibrate_control({parameters}, *scenario.robot.robot, control);
   Scenario doubted = scenario;
   doubted.calibrations = {parameters, parameters};
-  doubts_about_calibrations(doubted);
+  warnings_about_calibrations(doubted);
   check_thresholds(parameters);
   with_parameters(robot_text(), "planar_3rrr.yaml", parameters);
 }

@@ -8,7 +8,7 @@ OWN = re.compile(r"planar|five_bar|hexapod")  # in the names of a mechanism's ow
 # Who must know all mechanisms, or one to fall back upon, and what it does with it.
 MAY_NAME = {
     "systems/config/robot_kind.cpp": "the table of kinds",
-    "plant/bench_dynamics.cpp": "takes the closed forms where there are some",
+    "plant/rig_dynamics.cpp": "takes the closed forms where there are some",
     "experiments/scenario/scenario.cpp": "a stand-in where the robot file is no good",
     "systems/robot/configuration_space.h": "says which spaces there are",
     "systems/robot/configuration_space.cpp": "and how each is moved along",

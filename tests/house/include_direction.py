@@ -11,7 +11,7 @@ ROOMS = [f"systems/{room}" for room in ("sensors", "model", "estimators", "conta
 BLOCKS = [*ROOMS, *SIGNALS]
 DIAGRAMS = ["diagrams", *BLOCKS]
 # What reads and judges an experiment, whatever stands for the robot.
-EXPERIMENT_ROOMS = [f"experiments/{room}" for room in ("scenario", "verdict", "report", "recorded", "live", "robot_check")]
+EXPERIMENT_ROOMS = [f"experiments/{room}" for room in ("scenario", "verdict", "report", "recorded", "live", "robot_check", "graph")]
 EXPERIMENTS = [*EXPERIMENT_ROOMS, "systems/config", *DIAGRAMS]
 
 MAY_INCLUDE = {

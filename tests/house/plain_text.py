@@ -31,6 +31,12 @@ RETIRED = {
     "UnevenTorque": "TorqueRipple", "DriveWish": "RequestedDriveState", "upper_share": "clopper_pearson_upper",
     "upper_rate": "garwood_upper", "EitherDetector": "MaxDetector", "WholeStep": "SingleStep",
     "EachInTurn": "SampleQueue", "BrokenPromises": "QosMismatch", "Insistence": "Requirement",
+    "ToldContact": "OracleContact", "StageSite": "StageContext", "DriveMaster": "DriveManager",
+    "ImuDoubt": "ImuFault", "CalibrationDoubt": "CalibrationWarning", "CourseMemory": "ContactWindowBuffer",
+    "ContactCourse": "ContactWindow", "TurningWave": "TurningHarmonic", "PositionWave": "PositionHarmonic",
+    "HalfWay": "MeetingPoint", "ConfigPlace": "SourceLocation", "PlaceLimits": "PoseConstraints",
+    "BenchPlant": "RigPlant", "BenchDynamics": "RigDynamics", "ServedBench": "ServedRig",
+    r"(?!Stop)[A-Z]\w*Watch\b": "Monitor", "noticed": "detected",
 }
 RULES += [(rf"\b{old}", EVERYWHERE, ("CHANGELOG.md",), f"the field says {new!r}") for old, new in RETIRED.items()]
 THIS_FILE = "tests/house/plain_text.py"

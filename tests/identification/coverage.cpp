@@ -252,7 +252,7 @@ double drawn_surplus(const DynamicParameter& parameter, RobotsDrawn drawn, Rando
 }  // namespace
 
 Coverage cover_dynamics(int calibrations, std::uint64_t first_seed, RobotsDrawn drawn) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::test_rig));
   const auto parameters = DynamicParameters::of(robot);
   const std::vector<DynamicParameter>& list = parameters->list();
   Coverage coverage;

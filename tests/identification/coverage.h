@@ -37,7 +37,7 @@ class Coverage {
 Coverage cover_torque_constants(int calibrations, std::uint64_t first_seed);
 
 /// Pose, biases and delay of an IMU that is mounted anew, on a platform that moves in the plane along four
-/// random waves for 4 s; noise of the bench's IMU, low-passed as recordings are.
+/// random waves for 4 s; noise of the rig's IMU, low-passed as recordings are.
 Coverage cover_imu_poses(int calibrations, std::uint64_t first_seed);
 
 /// How far off the robots are from what a calibration believes of them beforehand.
@@ -46,7 +46,7 @@ enum class RobotsDrawn {
   near_their_model,  ///< inertia by up to 10 %, friction by up to 20 %: nearer than is believed
 };
 
-/// The bench's robot along random waves for 20 s; motors that cog by up to 0.5 Nm, noise.
+/// The rig's robot along random waves for 20 s; motors that cog by up to 0.5 Nm, noise.
 Coverage cover_dynamics(int calibrations, std::uint64_t first_seed, RobotsDrawn drawn);
 
 }  // namespace flinch::test

@@ -62,7 +62,7 @@ TEST(Dynamics, FindWhatIsTrueWithinTheirDeviations) {
   const Simulated run =
       test::simulated("calibration_excitation.yaml", {{excitation_realism, only_parameters}});
   const CalibrationResult got = calibrated(run);
-  const auto& truth = dynamic_cast<const PlanarRrr&>(*run.scenario.station.bench.robot).parameters();
+  const auto& truth = dynamic_cast<const PlanarRrr&>(*run.scenario.station.rig.robot).parameters();
   int found = 0;
   for (const CalibratedParameter& parameter : got.parameters) {
     if (!parameter.identifiable) continue;
@@ -95,7 +95,7 @@ TEST(Dynamics, OfADeltaPredictItsTorqueOnAnUnseenMotion) {
                       {{"duration_s: 45", "duration_s: 5"}, {"duration_s: 43", "duration_s: 4"}});
   const CalibrationResult got = calibrate_dynamics(belief(run), {{{"run.h5", ""}, &run.recording}},
                                                    {{{"other.h5", ""}, &other.recording}});
-  EXPECT_TRUE(got.doubts.empty()) << ::testing::PrintToString(got.doubts);
+  EXPECT_TRUE(got.contradictions.empty()) << ::testing::PrintToString(got.contradictions);
   EXPECT_LT(got.residual_after, 0.1 * got.residual_before);
   ASSERT_EQ(got.validation.size(), 3U);
   for (const auto& drive : got.validation) {

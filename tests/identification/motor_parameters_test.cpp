@@ -20,8 +20,8 @@
 namespace flinch {
 namespace {
 
-const PlanarRrr& bench() {
-  static const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::simulation));
+const PlanarRrr& rig() {
+  static const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::simulation));
   return robot;
 }
 
@@ -87,7 +87,7 @@ TEST(MotorParameters, AreFoundOfTheDrivesThatCog) {
 
 // The last column is how what the first two make of the surplus changes with the rate.
 TEST(MotorParameters, HaveTheColumnsOfTheirRows) {
-  const auto robot = DynamicParameters::of(bench());
+  const auto robot = DynamicParameters::of(rig());
   const auto p = static_cast<Eigen::Index>(robot->list().size());
   const DriveWave wave{
       .drive = 1, .rate = 24.0, .deviation = 1.0, .least = 10.0, .sine = 0.3, .cosine = -0.2};
@@ -112,7 +112,7 @@ TEST(MotorParameters, HaveTheColumnsOfTheirRows) {
 }
 
 TEST(MotorParameters, StandInTheFileForAllDrivesOrForNone) {
-  const auto robot = DynamicParameters::of(bench());
+  const auto robot = DynamicParameters::of(rig());
   const MotorParameters none(*robot, {}, DriveKind::revolute, drives());
   const std::size_t but_for_cogging = robot->in_file(robot->believed()).size() + 3;  // with the delays
   EXPECT_EQ(none.in_file(none.believed()).size(), but_for_cogging);
@@ -135,7 +135,7 @@ TEST(MotorParameters, StandInTheFileForAllDrivesOrForNone) {
 
 // Who believed in cogging and finds none says so, or the old one would stay.
 TEST(MotorParameters, TakeBackWhatWasBelieved) {
-  const auto robot = DynamicParameters::of(bench());
+  const auto robot = DynamicParameters::of(rig());
   DriveParameters believing = drives();
   believing.cogging = {
       {{JointVector::Constant(3, 0.26), JointVector::Ones(3), JointVector{{0.0, 1.0, 2.0}}}}};
@@ -166,7 +166,7 @@ TEST(MotorParameters, OfDrivesThatSlideAreInMetres) {
 
 // A torque that is behind its current by lambda leaves lambda times its slope.
 TEST(MotorParameters, HaveTheSlopeOfItsTorqueForTheDelayOfADrive) {
-  const auto robot = DynamicParameters::of(bench());
+  const auto robot = DynamicParameters::of(rig());
   const auto p = static_cast<Eigen::Index>(robot->list().size());
   DriveParameters believing = drives();
   believing.torque_delay = JointVector{{1e-4, 2e-4, 3e-4}};
@@ -215,7 +215,7 @@ double not_found(const SimulatedScenario& scenario, const CalibrationResult& got
   for (double from_home = -0.4; from_home < 0.4; from_home += 0.01) {
     const double q = home.joints.active[drive] + from_home;
     double motor = 0.0;
-    for (const PositionWave& wave : harmonics) motor += wave.at(q);
+    for (const PositionHarmonic& wave : harmonics) motor += wave.at(q);
     left += std::pow(found.at(JointVector::Constant(1, q))[0] - motor, 2);
     all += std::pow(motor, 2);
   }

@@ -96,7 +96,7 @@ DataSet contacts_known_by_heart() {
     sample.touched = (5 * sample.configuration) % classes.bodies();
     sample.pose = data.robot->home_pose();
     const double angle = 2.0 * M_PI * sample.configuration / 12.0;
-    for (CourseMoment& moment : sample.course)
+    for (ContactMoment& moment : sample.course)
       moment.wrench_in_base = Eigen::Vector3d(30.0 * std::cos(angle), 30.0 * std::sin(angle), 0.0);
   }
   return data;

@@ -7,25 +7,25 @@
 
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
-#include "tests/peer/mujoco_bench.h"
+#include "tests/peer/mujoco_rig.h"
 
 namespace flinch::peer {
 namespace {
 
 std::array<double, 3> three(const JointVector& values) { return {values[0], values[1], values[2]}; }
 
-/// The bench with legs made of bodies, so that both engines are told the same.
-PlanarRrrParameters robot_of_bodies(BenchGeometry geometry, BenchFriction friction) {
-  PlanarRrrParameters robot = bench_robot(geometry, friction);
+/// The rig with legs made of bodies, so that both engines are told the same.
+PlanarRrrParameters robot_of_bodies(RigGeometry geometry, RigFriction friction) {
+  PlanarRrrParameters robot = rig_robot(geometry, friction);
   for (PlanarRrrLeg& leg : robot.legs)
-    leg.inertia = base_parameters(bench_link1(), bench_link2(), leg.link1_length);
+    leg.inertia = base_parameters(rig_link1(), rig_link2(), leg.link1_length);
   return robot;
 }
 
 /// Relative difference of the platform accelerations on `count` random states and torques, ascending.
 std::vector<double> differences(const PlanarRrrParameters& parameters, int count) {
   const PlanarRrr robot(parameters);
-  MujocoBench mujoco(parameters, bench_link1(), bench_link2());
+  MujocoRig mujoco(parameters, rig_link1(), rig_link2());
   std::mt19937_64 generator(2026);
   const auto draw = [&generator](double limit) {
     return std::uniform_real_distribution<double>(-limit, limit)(generator);
@@ -48,7 +48,7 @@ std::vector<double> differences(const PlanarRrrParameters& parameters, int count
   return found;
 }
 
-class MujocoPeer : public testing::TestWithParam<std::pair<BenchGeometry, BenchFriction>> {};
+class MujocoPeer : public testing::TestWithParam<std::pair<RigGeometry, RigFriction>> {};
 
 TEST_P(MujocoPeer, GivesTheSamePlatformAccelerations) {
   const std::vector<double> found = differences(robot_of_bodies(GetParam().first, GetParam().second), 300);
@@ -62,9 +62,9 @@ TEST_P(MujocoPeer, GivesTheSamePlatformAccelerations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, MujocoPeer,
-                         testing::Values(std::pair{BenchGeometry::nominal, BenchFriction::none},
-                                         std::pair{BenchGeometry::individual, BenchFriction::none},
-                                         std::pair{BenchGeometry::individual, BenchFriction::simulation}));
+                         testing::Values(std::pair{RigGeometry::nominal, RigFriction::none},
+                                         std::pair{RigGeometry::individual, RigFriction::none},
+                                         std::pair{RigGeometry::individual, RigFriction::simulation}));
 
 }  // namespace
 }  // namespace flinch::peer

@@ -11,7 +11,7 @@
 #include "systems/robot/planar_leg_bases.h"
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
-#include "tests/peer/mujoco_bench.h"
+#include "tests/peer/mujoco_rig.h"
 
 namespace flinch::peer {
 namespace {
@@ -19,16 +19,16 @@ namespace {
 std::array<double, 3> three(const JointVector& values) { return {values[0], values[1], values[2]}; }
 
 TEST(MujocoPeer, BearsTheSameForcesAtTheBaseJoints) {
-  PlanarRrrParameters parameters = bench_robot(BenchGeometry::individual, BenchFriction::simulation);
+  PlanarRrrParameters parameters = rig_robot(RigGeometry::individual, RigFriction::simulation);
   std::array<double, 3> moments{};
   for (std::size_t i = 0; i < 3; ++i) {
     PlanarRrrLeg& leg = parameters.legs[i];
-    leg.inertia = base_parameters(bench_link1(), bench_link2(), leg.link1_length);
-    moments[i] = bench_link1().mass * bench_link1().centre_of_mass + bench_link2().mass * leg.link1_length;
+    leg.inertia = base_parameters(rig_link1(), rig_link2(), leg.link1_length);
+    moments[i] = rig_link1().mass * rig_link1().centre_of_mass + rig_link2().mass * leg.link1_length;
   }
   const auto robot = std::make_shared<const PlanarRrr>(parameters);
   const PlanarLegBases bases(robot, moments);
-  MujocoBench mujoco(parameters, bench_link1(), bench_link2());
+  MujocoRig mujoco(parameters, rig_link1(), rig_link2());
   std::mt19937_64 generator(2027);
   const auto draw = [&generator](double limit) {
     return std::uniform_real_distribution<double>(-limit, limit)(generator);

@@ -97,7 +97,7 @@ TEST_P(MujocoLegsPeer, GivesTheSamePlatformAccelerations) {
 
 // What the closed forms of a mechanism say, against its model.
 TEST(MujocoClosedFormsPeer, GiveTheSamePlatformAccelerations) {
-  const PlanarRrr planar(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const PlanarRrr planar(rig_robot(RigGeometry::individual, RigFriction::none));
   const FiveBar five_bar(five_bar_robot(FiveBarElbows::outward, FiveBarFriction::none));
   const Hexapod hexapod(hexapod_robot(HexapodPayload::eccentric));
   for (const ParallelRobot* const robot :

@@ -8,7 +8,7 @@
 
 #include "plant/planar_gap.h"
 
-/// Distances between the bodies of the bench as the Bullet library sees them, in three dimensions: links are
+/// Distances between the bodies of the rig as the Bullet library sees them, in three dimensions: links are
 /// horizontal capsules, the platform is a sphere, the pylon is an upright capsule.
 namespace flinch::test {
 

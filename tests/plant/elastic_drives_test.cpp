@@ -11,17 +11,17 @@
 #include <memory>
 #include <numbers>
 
-#include "plant/bench_of.h"
-#include "plant/general_bench.h"
-#include "plant/planar_bench.h"
+#include "plant/general_rig.h"
+#include "plant/planar_rig.h"
+#include "plant/rig_of.h"
 #include "systems/robot/dynamics.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/five_bar_presets.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
-#include "tests/plant/bench_scene.h"
-#include "tests/plant/moving_bench.h"
-#include "tests/plant/random_bench.h"
+#include "tests/plant/moving_rig.h"
+#include "tests/plant/random_rig.h"
+#include "tests/plant/rig_scene.h"
 
 namespace flinch {
 namespace {
@@ -39,8 +39,8 @@ std::shared_ptr<const Hexapod> hexapod() {
   return std::make_shared<const Hexapod>(hexapod_robot(HexapodPayload::eccentric, HexapodFriction::none));
 }
 
-BenchSettings bench(std::shared_ptr<const Mechanism> robot, const ElasticDrivesSettings& elastic) {
-  BenchSettings settings;
+RigSettings rig(std::shared_ptr<const Mechanism> robot, const ElasticDrivesSettings& elastic) {
+  RigSettings settings;
   settings.robot = std::move(robot);
   settings.link_material.reset();
   settings.elastic = elastic;
@@ -49,13 +49,11 @@ BenchSettings bench(std::shared_ptr<const Mechanism> robot, const ElasticDrivesS
 
 // ---------------------------------------------------------------- energy
 
-double energy(const test::MovingBench& moving) {
-  return moving.now.kinetic_energy + moving.now.elastic_energy;
-}
+double energy(const test::MovingRig& moving) { return moving.now.kinetic_energy + moving.now.elastic_energy; }
 
 /// Largest relative change of the energy of a robot that moves freely.
-double energy_drift(const BenchSettings& settings, double& most_in_springs, int ticks = 300) {
-  test::MovingBench moving(settings);
+double energy_drift(const RigSettings& settings, double& most_in_springs, int ticks = 300) {
+  test::MovingRig moving(settings);
   const double start = energy(moving);
   double drift = 0.0;
   for (int k = 0; k < ticks; ++k) {
@@ -68,7 +66,7 @@ double energy_drift(const BenchSettings& settings, double& most_in_springs, int 
 }
 
 TEST(ElasticDrives, KeepTheEnergyOfARobotThatNothingActsOn) {
-  BenchSettings planar = bench(test::individual_bench(), springs(3, 2000.0));
+  RigSettings planar = rig(test::individual_rig(), springs(3, 2000.0));
   planar.initial_velocity = PlatformVector{{0.3, -0.4, 1.5}};
   double in_springs = 0.0;
   const double of_planar = energy_drift(planar, in_springs);
@@ -76,14 +74,14 @@ TEST(ElasticDrives, KeepTheEnergyOfARobotThatNothingActsOn) {
   EXPECT_LT(of_planar, 1e-8);
   EXPECT_GT(in_springs, 1e-5);
 
-  BenchSettings spatial = bench(hexapod(), springs(6, 2e6));
+  RigSettings spatial = rig(hexapod(), springs(6, 2e6));
   spatial.initial_velocity = PlatformVector{{0.1, -0.05, 0.1, 0.3, 0.2, -0.4}};
   constexpr int before_it_has_fallen_out_of_reach = 100;
   EXPECT_LT(energy_drift(spatial, in_springs, before_it_has_fallen_out_of_reach), 1e-8);
 }
 
 TEST(ElasticDrives, KeepTheEnergyAlsoWhereTheyHavePlay) {
-  BenchSettings settings = bench(test::individual_bench(), springs(3, 20000.0, 2e-3));
+  RigSettings settings = rig(test::individual_rig(), springs(3, 20000.0, 2e-3));
   settings.initial_velocity = PlatformVector{{0.3, -0.4, 1.5}};
   double in_springs = 0.0;
   EXPECT_LT(energy_drift(settings, in_springs), 1e-6);
@@ -91,9 +89,9 @@ TEST(ElasticDrives, KeepTheEnergyAlsoWhereTheyHavePlay) {
 }
 
 TEST(ElasticDrives, LoseEnergyByTheirDamping) {
-  BenchSettings settings = bench(test::individual_bench(), springs(3, 2000.0));
+  RigSettings settings = rig(test::individual_rig(), springs(3, 2000.0));
   settings.elastic.damping_ratio = 0.1;
-  test::MovingBench moving(settings);
+  test::MovingRig moving(settings);
   moving.y[6] = 0.01;
   moving.tick();
   double before = energy(moving);
@@ -125,22 +123,22 @@ PlatformVector acceleration_without_rotors(const Mechanism& robot, const Configu
 }
 
 TEST(ElasticDrives, MoveTheRobotAsItsEquationsWithoutRotorsSay) {
-  test::RandomBench random(61);
-  BenchSettings settings = bench(random.shared, springs(3, 5000.0));
+  test::RandomRig random(61);
+  RigSettings settings = rig(random.shared, springs(3, 5000.0));
   settings.elastic.rotor_inertia = JointVector::Constant(3, 0.12);
-  const BenchOf<PlanarBench> planar(settings);
-  const BenchOf<GeneralBench> general(settings);
-  const BenchStep step = planar.initial_step();
+  const RigOf<PlanarRig> planar(settings);
+  const RigOf<GeneralRig> general(settings);
+  const RigStep step = planar.initial_step();
   DriveAction coasting;
   coasting.braked = false;
   for (int i = 0; i < 200; ++i) {
     const PlanarMotion motion = random.motion();
-    BenchState state = planar.initial_state();
+    RigState state = planar.initial_state();
     state.head<3>() = motion.pose;
     state.segment<3>(3) = motion.velocity;
     for (int k = 6; k < 12; ++k) state[k] = random.uniform(-1e-2, 1e-2);
     coasting.torque = Eigen::Vector3d(random.uniform(-20.0, 20.0), 5.0, -3.0);
-    BenchState rates, of_general;
+    RigState rates, of_general;
     planar.rates(state, coasting, PlatformVector::Zero(3), step, rates);
     general.rates(state, coasting, PlatformVector::Zero(3), step, of_general);
     EXPECT_LT((of_general - rates).norm(), 1e-9 * (1.0 + rates.norm()));
@@ -155,8 +153,8 @@ TEST(ElasticDrives, MoveTheRobotAsItsEquationsWithoutRotorsSay) {
 }
 
 TEST(ElasticDrives, SwingWithTheFrequenciesOfMotorsAndLegs) {
-  const auto robot = test::individual_bench();
-  BenchSettings settings = bench(robot, springs(3, 4000.0));
+  const auto robot = test::individual_rig();
+  RigSettings settings = rig(robot, springs(3, 4000.0));
   settings.elastic.rotor_inertia = JointVector::Constant(3, 0.1);
   Kinematics kinematics;
   Dynamics dynamics;
@@ -169,7 +167,7 @@ TEST(ElasticDrives, SwingWithTheFrequenciesOfMotorsAndLegs) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(4000.0 *
                                                              (S + 10.0 * Eigen::Matrix3d::Identity()));
   for (int mode = 0; mode < 3; ++mode) {
-    test::MovingBench moving(settings);
+    test::MovingRig moving(settings);
     const Eigen::Vector3d twist = 1e-6 * modes.eigenvectors().col(mode);
     std::copy_n(twist.data(), 3, moving.y.begin() + 6);
     const double period = 2.0 * std::numbers::pi / std::sqrt(modes.eigenvalues()[mode]);
@@ -180,9 +178,9 @@ TEST(ElasticDrives, SwingWithTheFrequenciesOfMotorsAndLegs) {
 }
 
 TEST(ElasticDrives, AsStiffOnesTheRobotMovesAsIfItHadNone) {
-  const auto robot = test::individual_bench(BenchFriction::test_bench);
+  const auto robot = test::individual_rig(RigFriction::test_rig);
   const auto end_of = [&](const ElasticDrivesSettings& elastic) {
-    test::MovingBench moving(bench(robot, elastic));
+    test::MovingRig moving(rig(robot, elastic));
     moving.equation.drives.torque = Eigen::Vector3d(3.0, -4.0, 2.0);
     for (int k = 0; k < 100; ++k) moving.tick();
     return moving.now.pose;
@@ -197,7 +195,7 @@ TEST(ElasticDrives, AsStiffOnesTheRobotMovesAsIfItHadNone) {
 // ---------------------------------------------------------------- rest
 
 TEST(ElasticDrives, HoldTheWeightOfARobotFromItsStartOn) {
-  test::MovingBench moving(bench(hexapod(), springs(6, 1e5)));
+  test::MovingRig moving(rig(hexapod(), springs(6, 1e5)));
   moving.equation.drives.braked = true;
   const Configuration start = moving.now.pose;
   const double twist = (moving.now.motors - moving.now.joints.active).cwiseAbs().minCoeff();
@@ -207,10 +205,10 @@ TEST(ElasticDrives, HoldTheWeightOfARobotFromItsStartOn) {
 }
 
 TEST(ElasticDrives, YieldToAPushWhereBrakesHoldTheMotors) {
-  const auto robot = test::individual_bench();
-  BenchSettings settings = bench(robot, springs(3, 4000.0, 1e-3));
+  const auto robot = test::individual_rig();
+  RigSettings settings = rig(robot, springs(3, 4000.0, 1e-3));
   settings.elastic.damping_ratio = 0.2;
-  test::MovingBench moving(settings);
+  test::MovingRig moving(settings);
   moving.equation.drives.braked = true;
   moving.equation.applied_wrench = PlatformVector{{30.0, 10.0, 0.0}};
   for (int k = 0; k < 1500; ++k) moving.tick();
@@ -225,7 +223,7 @@ TEST(ElasticDrives, YieldToAPushWhereBrakesHoldTheMotors) {
 }
 
 TEST(ElasticDrives, RestUnderTheirBrakesWhereNothingMoves) {
-  test::MovingBench moving(bench(test::individual_bench(), springs(3, 4000.0)));
+  test::MovingRig moving(rig(test::individual_rig(), springs(3, 4000.0)));
   moving.equation.drives.braked = true;
   moving.equation.drives.torque.setZero(3);
   moving.tick();
@@ -239,7 +237,7 @@ TEST(ElasticDrives, RestUnderTheirBrakesWhereNothingMoves) {
 // ---------------------------------------------------------------- settings
 
 TEST(ElasticDrives, PassNothingOnBetweenTheirFlanksAndNeverPull) {
-  const auto robot = test::individual_bench();
+  const auto robot = test::individual_rig();
   ElasticDrivesSettings settings = springs(3, 1000.0, 0.01);
   settings.damping_ratio = 0.5;
   const ElasticDrives drives(settings, *robot, robot->home_pose());
@@ -252,7 +250,7 @@ TEST(ElasticDrives, PassNothingOnBetweenTheirFlanksAndNeverPull) {
 }
 
 TEST(ElasticDrives, TellWhatIsWrongWithThem) {
-  const auto robot = test::individual_bench();
+  const auto robot = test::individual_rig();
   const auto problems_of = [&](const ElasticDrivesSettings& settings) {
     return problems(settings, *robot, robot->home_pose());
   };
@@ -264,7 +262,7 @@ TEST(ElasticDrives, TellWhatIsWrongWithThem) {
   heavy.rotor_inertia = JointVector::Constant(3, 0.7);
   EXPECT_THAT(problems_of(heavy), ElementsAre(HasSubstr("rotor_inertia is more than all that a drive moves, "
                                                         "0.5")));
-  BenchSettings settings = bench(robot, heavy);
+  RigSettings settings = rig(robot, heavy);
   EXPECT_THAT(problems(settings), ElementsAre(HasSubstr("elastic_drives.rotor_inertia")));
 }
 

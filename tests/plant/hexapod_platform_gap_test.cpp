@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "plant/general_bench.h"
+#include "plant/general_rig.h"
 #include "systems/config/robot_file.h"
 #include "systems/framework/random.h"
 #include "systems/robot/hexapod.h"
@@ -122,24 +122,24 @@ TEST(WorkspaceOfTheHexapod, KeepsLegsFromThePlatform) {
   EXPECT_GT(kept_out, 0);
 }
 
-TEST(GeneralBench, LetsALegTouchThePlatform) {
+TEST(GeneralRig, LetsALegTouchThePlatform) {
   const auto robot = std::make_shared<const Hexapod>(hexapod_robot());
   const GapOfOutlines truth(*robot);
-  BenchSettings settings;
+  RigSettings settings;
   settings.robot = robot;
   settings.link_material = ContactMaterial();
-  const GeneralBench bench(settings);
+  const GeneralRig rig(settings);
   RandomPoses poses(*robot);
   int touching = 0;
   for (int i = 0; i < 2000; ++i) {
     const Kinematics at = poses.next();
-    GeneralBench::Instant now;
-    BenchState state = BenchState::Zero(12);
-    BenchChart chart{.pose = at.pose, .xi = PlatformVector::Zero(6)};
-    ASSERT_TRUE(bench.at(state, chart, now));
-    const ContactSearch search = bench.find_candidates(now, {}, 1e-3);
+    GeneralRig::Instant now;
+    RigState state = RigState::Zero(12);
+    RigChart chart{.pose = at.pose, .xi = PlatformVector::Zero(6)};
+    ASSERT_TRUE(rig.at(state, chart, now));
+    const ContactSearch search = rig.find_candidates(now, {}, 1e-3);
     double least = std::numeric_limits<double>::infinity();
-    bench.for_each_gap(
+    rig.for_each_gap(
         now, {}, search.candidates, [](int, int, const SurfaceGap&) {},
         [&](int body, int, const SurfaceGap& gap) {
           if (body == BodyId::platform().index()) least = std::min(least, gap.gap);

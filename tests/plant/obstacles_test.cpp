@@ -11,7 +11,7 @@
 
 #include "plant/hand.h"
 #include "plant/obstacle_path.h"
-#include "plant/planar_bench.h"
+#include "plant/planar_rig.h"
 #include "systems/robot/contact_jacobian.h"
 #include "tests/plant/servoed_station.h"
 
@@ -98,12 +98,12 @@ struct Scene {
 
 Scene run(const SimulatedStationSettings& settings, const test::Path& path, int ticks) {
   test::ServoedStation station(settings, path);
-  const auto robot = std::dynamic_pointer_cast<const PlanarRrr>(settings.bench.robot);
-  const OutputPort<BenchSnapshot> snapshot{station.diagram().tap("station/plant/snapshot").port};
+  const auto robot = std::dynamic_pointer_cast<const PlanarRrr>(settings.rig.robot);
+  const OutputPort<RigSnapshot> snapshot{station.diagram().tap("station/plant/snapshot").port};
   Scene scene;
   for (int k = 0; k < ticks; ++k) {
     station.step();
-    const BenchSnapshot& now = station.context().get(snapshot);
+    const RigSnapshot& now = station.context().get(snapshot);
     const ContactForces& contacts = now.contacts;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     PlatformVector wrench = PlatformVector::Zero(3);
@@ -115,9 +115,9 @@ Scene run(const SimulatedStationSettings& settings, const test::Path& path, int 
       sum += touch.force_on_robot;
       ++touches[static_cast<std::size_t>(touch.obstacle)];
       const BodyId body = BodyId::from_index(touch.body);
-      const PlanarBench bench(settings.bench);
+      const PlanarRig rig(settings.rig);
       const Eigen::Vector3d in_body =
-          bench.point_in_body(robot->motion(now.pose, now.velocity), touch.body, touch.point);
+          rig.point_in_body(robot->motion(now.pose, now.velocity), touch.body, touch.point);
       wrench += platform_wrench(robot->contact_jacobian(kinematics, body, in_body.head(2)),
                                 touch.force_on_robot.head(2));
       if (!touch.held) continue;
@@ -134,11 +134,10 @@ Scene run(const SimulatedStationSettings& settings, const test::Path& path, int 
 }
 
 TEST(TwoObstaclesAtOnce, BalanceWithTheForcesOnTheRobot) {
-  SimulatedStationSettings settings = test::bench_station();
+  SimulatedStationSettings settings = test::rig_station();
   const CompliantMount arm{.mass = 1.5, .stiffness = 1500.0, .damping = 40.0};
-  settings.bench.obstacles = {
-      std::make_shared<const Hand>(fist(), arm, ObstaclePath(there_and_back(0.2, 1.0))),
-      test::compliant_post(-0.172, 0.02)};
+  settings.rig.obstacles = {std::make_shared<const Hand>(fist(), arm, ObstaclePath(there_and_back(0.2, 1.0))),
+                            test::compliant_post(-0.172, 0.02)};
   const Scene scene = run(settings, {.amplitude = {0.0, 0.0, 0.0}}, 1600);
   std::cout << "imbalance: " << scene.imbalance << " N, of the platform wrench " << scene.wrench_error << ", "
             << scene.both_touch << " ms between both\n";
@@ -149,12 +148,11 @@ TEST(TwoObstaclesAtOnce, BalanceWithTheForcesOnTheRobot) {
 }
 
 TEST(HandThatHolds, PullsTheRobotAlongAndLetsGo) {
-  SimulatedStationSettings settings = test::bench_station();
+  SimulatedStationSettings settings = test::rig_station();
   const CompliantMount arm{.mass = 1.5, .stiffness = 1500.0, .damping = 40.0};
-  settings.bench.obstacles = {
-      std::make_shared<const Hand>(fist(), arm, ObstaclePath(there_and_back(0.2, 1.0)),
-                                   Grip{.times = {0.8, 1.5}}),
-      test::fixed_post(1.5, 0.0)};
+  settings.rig.obstacles = {std::make_shared<const Hand>(fist(), arm, ObstaclePath(there_and_back(0.2, 1.0)),
+                                                         Grip{.times = {0.8, 1.5}}),
+                            test::fixed_post(1.5, 0.0)};
   const Scene scene = run(settings, {.amplitude = {0.0, 0.0, 0.0}}, 1800);
   std::cout << "held for " << scene.held << " ms, pulled with " << scene.strongest_pull << " N\n";
   EXPECT_LT(scene.imbalance, 1e-9);
@@ -165,8 +163,8 @@ TEST(HandThatHolds, PullsTheRobotAlongAndLetsGo) {
 }
 
 TEST(MovingObstacle, PushesTheRobotOutOfItsWay) {
-  SimulatedStationSettings settings = test::bench_station();
-  settings.bench.obstacles = {
+  SimulatedStationSettings settings = test::rig_station();
+  settings.rig.obstacles = {
       std::make_shared<const MovingObstacle>(fist(), ObstaclePath(there_and_back(0.2, 1.0)))};
   test::ServoedStation station(settings, {.amplitude = {0.0, 0.0, 0.0}});
   station.advance_to(200ms);

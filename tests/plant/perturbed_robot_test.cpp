@@ -10,19 +10,19 @@
 #include "systems/robot/forward_dynamics.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
-#include "tests/plant/bench_scene.h"
+#include "tests/plant/rig_scene.h"
 
 namespace flinch {
 namespace {
 
 std::vector<std::shared_ptr<const ParallelRobot>> robots() {
-  return {test::individual_bench(BenchFriction::test_bench),
+  return {test::individual_rig(RigFriction::test_rig),
           std::make_shared<const FiveBar>(five_bar_robot(FiveBarElbows::outward, FiveBarFriction::bearings)),
           std::make_shared<const Hexapod>(hexapod_robot(HexapodPayload::none, HexapodFriction::ball_screws))};
 }
 
 PerturbedRobot draw(const ParallelRobot& robot, std::uint64_t seed) {
-  return draw_perturbed_robot(bench_realism(robot.drive_kind(0)), robot, 100.0, seed);
+  return draw_perturbed_robot(rig_realism(robot.drive_kind(0)), robot, 100.0, seed);
 }
 
 /// Lowest and highest of many draws.
@@ -49,7 +49,7 @@ void expect_to_fill(const Spread& found, double low, double high) {
 
 TEST(PerturbedRobot, FillsTheSizesThatItIsDrawnFrom) {
   for (const auto& robot : robots()) {
-    const Realism sizes = bench_realism(robot->drive_kind(0));
+    const Realism sizes = rig_realism(robot->drive_kind(0));
     Spread friction, elbows, legs, platform, payload, constant, cogging, fourth, ripple, lag, encoder, phase,
         offset;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
@@ -69,7 +69,7 @@ TEST(PerturbedRobot, FillsTheSizesThatItIsDrawnFrom) {
         EXPECT_DOUBLE_EQ(torque.cogging[3].rate, 4.0 * torque.cogging[0].rate);
         ripple.add(torque.ripple.amplitude);
       }
-      for (const PositionWave& wave : one.active_encoder_wave) {
+      for (const PositionHarmonic& wave : one.active_encoder_wave) {
         encoder.add(wave.amplitude);
         phase.add(wave.phase);
       }
@@ -126,9 +126,9 @@ TEST(PerturbedRobot, WithoutAnySizeIsTheModel) {
     const PerturbedRobot none = draw_perturbed_robot(Realism(), *robot, 100.0, 5);
     EXPECT_TRUE(perturbed_robot_values(none, *robot).empty());
     SimulatedStationSettings model;
-    model.bench.robot = robot;
+    model.rig.robot = robot;
     const SimulatedStationSettings station = with_perturbed_robot(model, none);
-    EXPECT_TRUE(station.bench.torque_ripple.empty());
+    EXPECT_TRUE(station.rig.torque_ripple.empty());
     EXPECT_EQ(station.drives.torque_constant.size(), 0);
     EXPECT_EQ(station.encoders.passive.accuracy, model.encoders.passive.accuracy);
     Kinematics k;
@@ -136,7 +136,7 @@ TEST(PerturbedRobot, WithoutAnySizeIsTheModel) {
     const PlatformVector velocity = PlatformVector::Constant(robot->dof(), 0.3);
     robot->kinematics(robot->home_pose(), velocity, k);
     robot->dynamics(k, model_dynamics);
-    station.bench.robot->dynamics(k, dynamics);
+    station.rig.robot->dynamics(k, dynamics);
     EXPECT_EQ(dynamics.M_x, model_dynamics.M_x);
     EXPECT_EQ(dynamics.F_fr_x, model_dynamics.F_fr_x);
   }
@@ -145,7 +145,7 @@ TEST(PerturbedRobot, WithoutAnySizeIsTheModel) {
 TEST(PerturbedRobot, IsHeavierOrLighterAndRubsMoreOrLessInEveryMechanism) {
   for (const auto& robot : robots()) {
     SimulatedStationSettings model;
-    model.bench.robot = robot;
+    model.rig.robot = robot;
     const PerturbedRobot drawn = draw(*robot, 11);
     const SimulatedStationSettings station = with_perturbed_robot(model, drawn);
     const int n = robot->dof();
@@ -153,7 +153,7 @@ TEST(PerturbedRobot, IsHeavierOrLighterAndRubsMoreOrLessInEveryMechanism) {
     Dynamics believed, truth;
     robot->kinematics(robot->home_pose(), PlatformVector::Constant(n, 0.3), k);
     robot->dynamics(k, believed);
-    station.bench.robot->dynamics(k, truth);
+    station.rig.robot->dynamics(k, truth);
     // The payload adds its mass to each translation; the rest changes by 3 % at most.
     const int directions = robot->space_dimension();
     Eigen::MatrixXd rest = truth.M_x;
@@ -180,15 +180,15 @@ TEST(PerturbedRobot, HasElasticDrivesWhereTheirStiffnessIsGiven) {
     expect_to_fill(stiffness, 5e4, 1e5);
     expect_to_fill(backlash, 0.0, 1e-3);
     SimulatedStationSettings model;
-    model.bench.robot = robot;
+    model.rig.robot = robot;
     const PerturbedRobot one = draw_perturbed_robot(sizes, *robot, 100.0, 3);
-    EXPECT_EQ(with_perturbed_robot(model, one).bench.elastic.stiffness, one.elastic.stiffness);
+    EXPECT_EQ(with_perturbed_robot(model, one).rig.elastic.stiffness, one.elastic.stiffness);
   }
 }
 
 TEST(PerturbedRobot, LeavesWhatTheDriverBelieves) {
   SimulatedStationSettings model;
-  model.bench.robot = robots()[0];
+  model.rig.robot = robots()[0];
   PerturbedRobot perturbed_robot;
   perturbed_robot.torque_constant_scale = Eigen::Vector3d(1.01, 0.99, 1.0);
   const SimulatedDrivesSettings drives = with_perturbed_robot(model, perturbed_robot).drives;
@@ -198,7 +198,7 @@ TEST(PerturbedRobot, LeavesWhatTheDriverBelieves) {
 
 TEST(PerturbedRobot, PutsAnOffsetInThePlaceOfTheEncodersAccuracy) {
   SimulatedStationSettings model;
-  model.bench.robot = robots()[0];
+  model.rig.robot = robots()[0];
   PerturbedRobot perturbed_robot;
   perturbed_robot.passive_encoder_offset = Eigen::Vector3d(1e-3, 0.0, -1e-3);
   const EncoderErrors passive = with_perturbed_robot(model, perturbed_robot).encoders.passive;

@@ -8,14 +8,14 @@
 
 #include "systems/robot/link_segments.h"
 #include "tests/plant/bullet_gap.h"
-#include "tests/plant/random_bench.h"
+#include "tests/plant/random_rig.h"
 
 namespace flinch {
 namespace {
 
 constexpr int trials = 20000;
 
-PlanarCapsule random_capsule(test::RandomBench& random) {
+PlanarCapsule random_capsule(test::RandomRig& random) {
   const Eigen::Vector2d begin = random.point(1.0);
   const Eigen::Vector2d end = random.point(1.0);
   return {begin, end, random.uniform(0.01, 0.2)};
@@ -28,7 +28,7 @@ double gap_at_ends(const PlanarCapsule& a, const PlanarCapsule& b) {
 }
 
 TEST(GapToDisc, AgreesWithBulletForAnUprightPost) {
-  test::RandomBench random(1);
+  test::RandomRig random(1);
   test::BulletGap bullet;
   double worst = 0.0;
   for (int i = 0; i < trials; ++i) {
@@ -41,7 +41,7 @@ TEST(GapToDisc, AgreesWithBulletForAnUprightPost) {
 }
 
 TEST(GapToDisc, TakenAtTheFourEndsAgreesWithBulletForTwoCapsules) {
-  test::RandomBench random(2);
+  test::RandomRig random(2);
   test::BulletGap bullet;
   double worst = 0.0;
   int compared = 0;
@@ -61,7 +61,7 @@ TEST(GapToDisc, TakenAtTheFourEndsAgreesWithBulletForTwoCapsules) {
 }
 
 TEST(GapToDisc, PointsFromTheAxisToTheCentre) {
-  test::RandomBench random(3);
+  test::RandomRig random(3);
   for (int i = 0; i < trials; ++i) {
     const PlanarCapsule capsule = random_capsule(random);
     const Disc disc{random.point(1.5), 0.04};

@@ -12,7 +12,7 @@
 
 #include "plant/contact_candidates.h"
 #include "tests/plant/bullet_gap.h"
-#include "tests/plant/random_bench.h"
+#include "tests/plant/random_rig.h"
 
 namespace flinch {
 namespace {
@@ -75,7 +75,7 @@ double gap_of_coupling_joints(const PlanarMotion& motion, int leg, int other) {
 
 // Coupling joints are a fixed distance apart, and no pair: where they are nearest, nothing is compared.
 TEST(PlanarShapes, GapsOfJointsToLinksAreTheGapsOfTheLegsInBullet) {
-  test::RandomBench random(11);
+  test::RandomRig random(11);
   test::BulletGap bullet;
   double worst = 0.0;
   int compared = 0;
@@ -95,7 +95,7 @@ TEST(PlanarShapes, GapsOfJointsToLinksAreTheGapsOfTheLegsInBullet) {
 }
 
 TEST(PlanarShapes, GapsOfPlatformAndPylonAreThoseOfBullet) {
-  test::RandomBench random(12);
+  test::RandomRig random(12);
   test::BulletGap bullet;
   double worst = 0.0;
   for (int i = 0; i < 3000; ++i) {

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "plant/bench_dynamics.h"
+#include "plant/rig_dynamics.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
-#include "tests/plant/bench_scene.h"
+#include "tests/plant/rig_scene.h"
 
 namespace flinch {
 namespace {
@@ -21,9 +21,9 @@ TEST(RopePull, RisesHoldsAndFalls) {
   EXPECT_TRUE(pull.at(7.5).isZero());
 }
 
-/// What the ropes do to the platform at the start, by the bench and by the Jacobian of the point.
+/// What the ropes do to the platform at the start, by the rig and by the Jacobian of the point.
 void compare(const std::shared_ptr<const Mechanism>& robot, int body, const Eigen::Vector3d& point) {
-  BenchSettings settings;
+  RigSettings settings;
   settings.robot = robot;
   settings.pulls = {RopePull{.body = body,
                              .point_in_body = point,
@@ -32,10 +32,10 @@ void compare(const std::shared_ptr<const Mechanism>& robot, int body, const Eige
                              .rise = 0s,
                              .hold = 1s,
                              .fall = 0s}};
-  const auto bench = BenchDynamics::make(settings);
-  BenchSnapshot now;
+  const auto rig = RigDynamics::make(settings);
+  RigSnapshot now;
   const PlatformVector nothing = PlatformVector::Zero(robot->dof());
-  bench->snapshot(bench->initial_state(), {}, nothing, bench->initial_step(), 1e-3, now);
+  rig->snapshot(rig->initial_state(), {}, nothing, rig->initial_step(), 1e-3, now);
   Kinematics at;
   robot->kinematics(robot->home_pose(), nothing, at);
   const int directions = robot->space_dimension();
@@ -46,15 +46,15 @@ void compare(const std::shared_ptr<const Mechanism>& robot, int body, const Eige
 }
 
 TEST(RopePull, ActsOnThePlatformAsTheJacobianOfItsPointSays) {
-  for (int body = 0; body < 7; ++body) compare(test::individual_bench(), body, {0.3, 0.05, 0.0});
+  for (int body = 0; body < 7; ++body) compare(test::individual_rig(), body, {0.3, 0.05, 0.0});
   for (int body = 0; body < 13; ++body) {
     compare(std::make_shared<const Hexapod>(hexapod_robot()), body, {0.02, 0.03, 0.1});
   }
 }
 
 TEST(RopePull, AtNoBodyIsRefused) {
-  BenchSettings settings;
-  settings.robot = test::individual_bench();
+  RigSettings settings;
+  settings.robot = test::individual_rig();
   settings.pulls = {RopePull{.body = 7}};
   EXPECT_EQ(problems(settings), std::vector<std::string>{"a rope pulls at a body that the robot has not"});
 }

@@ -5,7 +5,7 @@
 #include "plant/delay_line.h"
 #include "plant/quantisation.h"
 #include "plant/sensor_noise.h"
-#include "tests/plant/sensor_bench.h"
+#include "tests/plant/sensor_rig.h"
 
 namespace flinch {
 namespace {

@@ -9,15 +9,15 @@
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/simulator.h"
 #include "systems/signals/brake_command.h"
-#include "tests/plant/bench_scene.h"
+#include "tests/plant/rig_scene.h"
 #include "tests/plant/truth_servo.h"
 
 namespace flinch::test {
 
-/// The bench of the papers as a station: ideal sensors, no obstacle.
-inline SimulatedStationSettings bench_station() {
+/// The rig of the papers as a station: ideal sensors, no obstacle.
+inline SimulatedStationSettings rig_station() {
   SimulatedStationSettings settings;
-  settings.bench.robot = individual_bench(BenchFriction::test_bench);
+  settings.rig.robot = individual_rig(RigFriction::test_rig);
   settings.drives.torque_constant = Eigen::Vector3d(6.021, 6.6116, 6.7315);
   return with_ideal_sensors(settings);
 }
@@ -58,7 +58,7 @@ class ServoedStation {
 
   std::unique_ptr<Diagram> wire(DiagramBuilder& builder, const SimulatedStationSettings& settings,
                                 const Path& path) const {
-    auto& servo = builder.add<TruthServo>("servo", settings.bench.robot, path);
+    auto& servo = builder.add<TruthServo>("servo", settings.rig.robot, path);
     auto& brake = builder.add<Constant<BrakeCommand>>("brake", BrakeCommand{.engage = false});
     builder.connect(station.plant_truth, servo.truth);
     builder.connect(servo.torque, station.torque_command);

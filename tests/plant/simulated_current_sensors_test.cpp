@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tests/plant/sensor_bench.h"
+#include "tests/plant/sensor_rig.h"
 
 namespace flinch {
 namespace {

@@ -7,20 +7,20 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
-#include "tests/plant/bench_scene.h"
-#include "tests/plant/sensor_bench.h"
+#include "tests/plant/rig_scene.h"
+#include "tests/plant/sensor_rig.h"
 
 namespace flinch {
 namespace {
 
 const Eigen::Vector3d constants(6.021, 6.6116, 6.7315);
 
-SimulatedDrivesSettings bench_constants() { return {.torque_constant = constants}; }
+SimulatedDrivesSettings rig_constants() { return {.torque_constant = constants}; }
 
 /// Drives whose commands the test sets; what they do after a tick is seen at the next one.
 class Drives {
  public:
-  explicit Drives(const SimulatedDrivesSettings& settings = bench_constants(), Time tick = 1ms)
+  explicit Drives(const SimulatedDrivesSettings& settings = rig_constants(), Time tick = 1ms)
       : builder_("test", tick), ticking_(wire(settings, tick)) {
     ticking_.set(truth_, test::truth_at_rest());
     ticking_.set(brake_, {.engage = false});
@@ -51,7 +51,7 @@ class Drives {
 
  private:
   DiagramBuilder& wire(const SimulatedDrivesSettings& settings, Time tick) {
-    auto& drives = builder_.add<SimulatedDrives>("drives", settings, *test::individual_bench(), tick);
+    auto& drives = builder_.add<SimulatedDrives>("drives", settings, *test::individual_rig(), tick);
     command_ = builder_.export_input("command", drives.torque_command);
     brake_ = builder_.export_input("brake", drives.brake);
     truth_ = builder_.export_input("truth", drives.truth);
@@ -160,7 +160,7 @@ TEST(SimulatedDrives, WithoutLagObeyAtOnce) {
 }
 
 SimulatedDrivesSettings with_fault(RequestedFault fault) {
-  SimulatedDrivesSettings settings = bench_constants();
+  SimulatedDrivesSettings settings = rig_constants();
   settings.faults = {fault};
   return settings;
 }
@@ -255,7 +255,7 @@ TEST(SimulatedDrives, AreDisabledByAFaultWhenTheRobotCameApart) {
 }
 
 TEST(SimulatedDrives, HaveConstantsAndLimitsOfTheirKindUnlessTold) {
-  const SimulatedDrivesSettings turning = complete({}, *test::individual_bench());
+  const SimulatedDrivesSettings turning = complete({}, *test::individual_rig());
   const SimulatedDrivesSettings sliding = complete({}, Hexapod(hexapod_robot()));
   EXPECT_EQ(turning.torque_constant, JointVector::Constant(3, 6.1));
   EXPECT_EQ(turning.max_torque, JointVector::Constant(3, 100.0));
@@ -265,10 +265,10 @@ TEST(SimulatedDrives, HaveConstantsAndLimitsOfTheirKindUnlessTold) {
 }
 
 TEST(SimulatedDrives, RefuseConstantsAndLimitsThatAreNotPositive) {
-  SimulatedDrivesSettings settings = bench_constants();
+  SimulatedDrivesSettings settings = rig_constants();
   settings.torque_constant[1] = 0.0;
   settings.max_torque = Eigen::Vector3d(100.0, -1.0, 100.0);
-  const auto robot = test::individual_bench();
+  const auto robot = test::individual_rig();
   EXPECT_EQ(problems(settings, *robot).size(), 2U);
   EXPECT_THROW(SimulatedDrives(settings, *robot), SetupError);
   EXPECT_EQ(problems({.torque_constant = JointVector::Ones(2)}, *robot).size(), 1U);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "systems/foundation/setup_error.h"
-#include "tests/plant/sensor_bench.h"
+#include "tests/plant/sensor_rig.h"
 
 namespace flinch {
 namespace {
@@ -129,15 +129,15 @@ TEST(SimulatedEncoders, PassiveErrorsAreConstantAndSpreadWithTheAccuracy) {
   settings.passive.resolution = 0.0;
   const PlantTruth truth = test::truth_at_rest();
   test::Statistics errors;
-  constexpr int benches = 700;
-  for (std::uint64_t seed = 0; seed < benches; ++seed) {
+  constexpr int rigs = 700;
+  for (std::uint64_t seed = 0; seed < rigs; ++seed) {
     Encoders encoders(settings, seed);
     const JointReading first = encoders.read();
     EXPECT_EQ(encoders.read().passive, first.passive);
     for (int axis = 0; axis < 3; ++axis) errors.add(first.passive[axis] - truth.passive[axis]);
   }
   const double sigma = 0.1 * degree;
-  const double four_sigma = 4.0 / std::sqrt(3.0 * benches);
+  const double four_sigma = 4.0 / std::sqrt(3.0 * rigs);
   EXPECT_NEAR(errors.mean() / sigma, 0.0, four_sigma);
   EXPECT_NEAR(errors.deviation() / sigma, 1.0, four_sigma);
 }

@@ -6,7 +6,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/planar_rrr_presets.h"
-#include "tests/plant/sensor_bench.h"
+#include "tests/plant/sensor_rig.h"
 
 namespace flinch {
 namespace {
@@ -19,8 +19,8 @@ class Sensor {
   explicit Sensor(const SimulatedForceTorqueSettings& settings, std::uint64_t seed = 1)
       : ticking_(wire(settings, seed)) {}
 
-  ForceTorqueReading read(const BenchSnapshot& bench) {
-    ticking_.set(snapshot_, bench);
+  ForceTorqueReading read(const RigSnapshot& rig) {
+    ticking_.set(snapshot_, rig);
     ticking_.tick();
     return ticking_.get(reading_);
   }
@@ -34,19 +34,19 @@ class Sensor {
   }
 
   DiagramBuilder builder_{"test", 1ms};
-  InputPort<BenchSnapshot> snapshot_;
+  InputPort<RigSnapshot> snapshot_;
   OutputPort<ForceTorqueReading> reading_;
   test::Ticking ticking_;
 };
 
-BenchSnapshot touched_at(const Eigen::Vector3d& point, const Eigen::Vector3d& force_on_robot) {
-  BenchSnapshot bench;
-  bench.reachable = true;
-  bench.contacts.touch_count = 1;
-  bench.obstacle_count = 1;
-  bench.contacts.touches[0] = {0, 0, point, force_on_robot, 0.0, false};
-  bench.force_on_mount[0] = -force_on_robot;
-  return bench;
+RigSnapshot touched_at(const Eigen::Vector3d& point, const Eigen::Vector3d& force_on_robot) {
+  RigSnapshot rig;
+  rig.reachable = true;
+  rig.contacts.touch_count = 1;
+  rig.obstacle_count = 1;
+  rig.contacts.touches[0] = {0, 0, point, force_on_robot, 0.0, false};
+  rig.force_on_mount[0] = -force_on_robot;
+  return rig;
 }
 
 TEST(SimulatedForceTorqueSensor, IdealOneReadsTheForceOnTheRobotAndItsMoment) {
@@ -63,7 +63,7 @@ TEST(SimulatedForceTorqueSensor, IdealOneReadsTheForceOnTheRobotAndItsMoment) {
 
 TEST(SimulatedForceTorqueSensor, NoiseHasTheGivenDeviations) {
   Sensor sensor({.force_noise = 0.2, .moment_noise = 0.01});
-  const BenchSnapshot untouched = touched_at(pylon_in_base, {0.0, 0.0, 0.0});
+  const RigSnapshot untouched = touched_at(pylon_in_base, {0.0, 0.0, 0.0});
   test::Statistics force;
   test::Statistics moment;
   for (int k = 0; k < 20000; ++k) {
@@ -90,7 +90,7 @@ TEST(SimulatedForceTorqueSensor, DeliversLateWithTheTimeOfMeasurement) {
 }
 
 TEST(SimulatedForceTorqueSensor, OfABenchThatCameApartIsNotValid) {
-  BenchSnapshot broken = touched_at(pylon_in_base, {1.0, 1.0, 0.0});
+  RigSnapshot broken = touched_at(pylon_in_base, {1.0, 1.0, 0.0});
   broken.reachable = false;
   EXPECT_FALSE(Sensor({}).read(broken).valid);
 }

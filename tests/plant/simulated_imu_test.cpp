@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "systems/foundation/setup_error.h"
-#include "tests/plant/bench_scene.h"
-#include "tests/plant/sensor_bench.h"
+#include "tests/plant/rig_scene.h"
+#include "tests/plant/sensor_rig.h"
 
 namespace flinch {
 namespace {
@@ -32,7 +32,7 @@ class Imu {
 
  private:
   DiagramBuilder& wire(const SimulatedImuSettings& settings, std::uint64_t seed) {
-    auto& imu = builder_.add<SimulatedImu>("imu", settings, *test::individual_bench(), seed);
+    auto& imu = builder_.add<SimulatedImu>("imu", settings, *test::individual_rig(), seed);
     block_ = &imu;
     truth_ = builder_.export_input("truth", imu.truth);
     imu_ = imu.imu;
@@ -230,13 +230,13 @@ TEST(SimulatedImu, NoiseHasTheDeviationOfItsDensityAndBiasesStayWithinTheirLimit
   EXPECT_NEAR(rate.mean(), imu.block().gyroscope_bias().x(), 4.0 * rate_sigma / std::sqrt(samples));
 
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const SimulatedImu each(settings, *test::individual_bench(), seed);
+    const SimulatedImu each(settings, *test::individual_rig(), seed);
     EXPECT_LE(each.accelerometer_bias().cwiseAbs().maxCoeff(), settings.accelerometer_bias);
     EXPECT_GT(each.accelerometer_bias().norm(), 0.0);
     EXPECT_LE(each.gyroscope_bias().cwiseAbs().maxCoeff(), settings.gyroscope_bias);
   }
   settings.fixed_accelerometer_bias = Eigen::Vector3d(0.3, -0.2, 0.1);
-  EXPECT_EQ(SimulatedImu(settings, *test::individual_bench(), 1).accelerometer_bias(),
+  EXPECT_EQ(SimulatedImu(settings, *test::individual_rig(), 1).accelerometer_bias(),
             Eigen::Vector3d(0.3, -0.2, 0.1));
 }
 
@@ -285,12 +285,12 @@ TEST(SimulatedImu, IsTheSameForTheSameSeedOnly) {
 TEST(SimulatedImu, RefusesADelayLongerThanItsMemory) {
   SimulatedImuSettings settings;
   settings.delay = 20ms;
-  EXPECT_THROW(SimulatedImu(settings, *test::individual_bench(), 1), SetupError);
+  EXPECT_THROW(SimulatedImu(settings, *test::individual_rig(), 1), SetupError);
   settings.clock.period = Time::zero();
   EXPECT_EQ(problems(settings).size(), 2U);
   settings = SimulatedImuSettings();
   settings.clock.period = 62us;
-  EXPECT_THROW(SimulatedImu(settings, *test::individual_bench(), 1), SetupError) << "too many in a tick";
+  EXPECT_THROW(SimulatedImu(settings, *test::individual_rig(), 1), SetupError) << "too many in a tick";
 }
 
 }  // namespace

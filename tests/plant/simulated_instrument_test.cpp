@@ -7,7 +7,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/constant.h"
 #include "systems/framework/diagram_builder.h"
-#include "tests/plant/bench_scene.h"
+#include "tests/plant/rig_scene.h"
 
 namespace flinch {
 namespace {
@@ -17,7 +17,7 @@ const std::vector<RopePull> pulls = {RopePull{
 
 /// What the instrument tells of the robot at home at the time `now`.
 ForceTorqueReading reading_at(Time now, const SimulatedInstrumentSettings& settings) {
-  const auto robot = test::individual_bench();
+  const auto robot = test::individual_rig();
   DiagramBuilder builder("test", 1ms);
   PlantTruth truth;
   truth.valid = true;
@@ -45,7 +45,7 @@ TEST(SimulatedInstrument, TellsThePullAtTheBodyOnWhichItSits) {
 TEST(SimulatedInstrument, ThatIsMountedAskewTurnsTheForce) {
   const SimulatedInstrumentSettings askew{
       .mountings = mountings, .force_noise = 0.0, .moment_noise = 0.0, .misalignment = 0.1};
-  const SimulatedInstrument instrument(askew, pulls, test::individual_bench(), 7);
+  const SimulatedInstrument instrument(askew, pulls, test::individual_rig(), 7);
   const double angle = instrument.misalignments()[0].z();
   EXPECT_GT(std::abs(angle), 1e-4);
   EXPECT_LE(std::abs(angle), 0.1);
@@ -62,7 +62,7 @@ TEST(SimulatedInstrument, HasNoiseAndAZeroThatIsOff) {
 }
 
 TEST(SimulatedInstrument, RefusesABodyThatIsNotThere) {
-  EXPECT_THROW(SimulatedInstrument({.mountings = {{.body = 9}}}, pulls, test::individual_bench(), 7),
+  EXPECT_THROW(SimulatedInstrument({.mountings = {{.body = 9}}}, pulls, test::individual_rig(), 7),
                SetupError);
 }
 

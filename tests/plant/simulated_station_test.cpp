@@ -18,8 +18,8 @@ namespace {
 /// With the errors of real sensors and a pylon in the way.
 SimulatedStationSettings noisy_station(std::uint64_t seed = 3) {
   SimulatedStationSettings settings;
-  settings.bench.robot = test::individual_bench(BenchFriction::test_bench);
-  settings.bench.obstacles = {test::fixed_post(0.32, 0.20)};
+  settings.rig.robot = test::individual_rig(RigFriction::test_rig);
+  settings.rig.obstacles = {test::fixed_post(0.32, 0.20)};
   settings.drives.torque_constant = Eigen::Vector3d(6.021, 6.6116, 6.7315);
   settings.seed = seed;
   return settings;
@@ -66,7 +66,7 @@ Recording record(const SimulatedStationSettings& settings, Time duration) {
   test::ServoedStation station(settings);
   Recorder recorder(station.diagram(), recordable_paths(station.diagram()),
                     static_cast<std::size_t>(duration / 1ms),
-                    quantity_units(*std::dynamic_pointer_cast<const PlanarRrr>(settings.bench.robot)));
+                    quantity_units(*std::dynamic_pointer_cast<const PlanarRrr>(settings.rig.robot)));
   station.simulator().record(recorder);
   for (Time now{}; now < duration; now += 1ms) station.step();
   return recorder.recording();
@@ -96,7 +96,7 @@ TEST(SimulatedStation, MeetsTheContractOfAStation) {
 
 TEST(SimulatedStation, HasNoForceTorqueSensorWithoutAPylon) {
   DiagramBuilder builder("test", 1ms);
-  EXPECT_FALSE(add_simulated_station(builder, test::bench_station()).force_torque);
+  EXPECT_FALSE(add_simulated_station(builder, test::rig_station()).force_torque);
   SimulatedStationSettings dismounted = noisy_station();
   dismounted.force_torque.reset();
   DiagramBuilder other("test", 1ms);
@@ -141,7 +141,7 @@ TEST(SimulatedStation, WithIdealSensorsTellsTheTruth) {
 TEST(SimulatedStation, AllocatesNothingInATick) {
   for (const auto& post : {test::fixed_post(0.32, 0.20), test::compliant_post(0.32, 0.20)}) {
     SimulatedStationSettings settings = noisy_station();
-    settings.bench.obstacles = {post};
+    settings.rig.obstacles = {post};
     test::ServoedStation station(settings);
     station.step();
     const test::AllocationCounter counter;
@@ -211,7 +211,7 @@ TEST(SimulatedStation, BrakesWhenCommandsStopComing) {
 }
 
 TEST(SimulatedStation, HoldsTheTorqueOfATickUntilTheNext) {
-  CommandedStation station(test::bench_station());
+  CommandedStation station(test::rig_station());
   station.command({1.0, 2.0, 3.0});
   station.step();
   EXPECT_EQ(station.get(station.station.plant_truth).drive_torque, JointVector::Zero(3))
@@ -224,8 +224,8 @@ TEST(SimulatedStation, HoldsTheTorqueOfATickUntilTheNext) {
 }
 
 TEST(SimulatedStation, YieldsToAnAppliedWrenchAsStifflyAsItIsHeld) {
-  SimulatedStationSettings settings = test::bench_station();
-  settings.bench.robot = test::individual_bench();
+  SimulatedStationSettings settings = test::rig_station();
+  settings.rig.robot = test::individual_rig();
   settings.applied_wrench = {{.peak_in_base = PlatformVector{{40.0, 0.0, 0.0}},
                               .start = 100ms,
                               .rise = 2s,

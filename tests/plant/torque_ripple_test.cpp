@@ -5,14 +5,14 @@
 #include <cmath>
 #include <memory>
 
-#include "plant/bench_dynamics.h"
+#include "plant/rig_dynamics.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/five_bar_presets.h"
 #include "systems/robot/forward_dynamics.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
-#include "tests/plant/bench_scene.h"
+#include "tests/plant/rig_scene.h"
 
 namespace flinch {
 namespace {
@@ -26,10 +26,10 @@ TEST(TorqueRipple, AddsCoggingAndAShareOfTheTorque) {
   EXPECT_EQ(TorqueRipple().at(0.2, 20.0), 20.0);
 }
 
-/// A state of the bench that moves.
-BenchState somewhere(const BenchDynamics& bench) {
-  const int n = bench.robot().dof();
-  BenchState state = bench.initial_state();
+/// A state of the rig that moves.
+RigState somewhere(const RigDynamics& rig) {
+  const int n = rig.robot().dof();
+  RigState state = rig.initial_state();
   for (int i = 0; i < n; ++i) {
     state[i] += 0.01 * (i + 1) * (i % 2 == 0 ? 1.0 : -1.0);
     state[n + i] = 0.1 * (i + 1);
@@ -41,10 +41,10 @@ BenchState somewhere(const BenchDynamics& bench) {
 // the robot itself tells, accelerations from these torques.
 TEST(TorqueRipple, ActsOnTheDrivesOfEveryMechanism) {
   const std::vector<std::shared_ptr<const Mechanism>> robots = {
-      test::individual_bench(BenchFriction::test_bench), std::make_shared<const FiveBar>(five_bar_robot()),
+      test::individual_rig(RigFriction::test_rig), std::make_shared<const FiveBar>(five_bar_robot()),
       std::make_shared<const Hexapod>(hexapod_robot(HexapodPayload::none, HexapodFriction::ball_screws))};
   for (const auto& robot : robots) {
-    BenchSettings settings;
+    RigSettings settings;
     settings.robot = robot;
     const bool turns = robot->drive_kind(0) == DriveKind::revolute;
     for (int i = 0; i < robot->drives(); ++i) {
@@ -53,14 +53,14 @@ TEST(TorqueRipple, ActsOnTheDrivesOfEveryMechanism) {
                        {.amplitude = 0.1, .rate = turns ? 48.0 : 6e4, .phase = 0.2}},
            .ripple = {.amplitude = 0.01, .rate = turns ? 66.0 : 8e4, .phase = 1.0}});
     }
-    const auto bench = BenchDynamics::make(settings);
+    const auto rig = RigDynamics::make(settings);
     DriveAction drives;
     drives.torque = JointVector::LinSpaced(robot->drives(), -3.0, 5.0);
     drives.enabled = true;
     drives.braked = false;
     const PlatformVector wrench = PlatformVector::Zero(robot->dof());
-    BenchSnapshot now;
-    bench->snapshot(somewhere(*bench), drives, wrench, bench->initial_step(), 1e-3, now);
+    RigSnapshot now;
+    rig->snapshot(somewhere(*rig), drives, wrench, rig->initial_step(), 1e-3, now);
 
     Kinematics k;
     Dynamics dynamics;
@@ -79,10 +79,10 @@ TEST(TorqueRipple, ActsOnTheDrivesOfEveryMechanism) {
 }
 
 TEST(TorqueRipple, IsRefusedForAnotherNumberOfDrives) {
-  BenchSettings settings;
-  settings.robot = test::individual_bench();
+  RigSettings settings;
+  settings.robot = test::individual_rig();
   settings.torque_ripple.resize(2);
-  EXPECT_THROW(BenchDynamics::make(settings), SetupError);
+  EXPECT_THROW(RigDynamics::make(settings), SetupError);
 }
 
 }  // namespace

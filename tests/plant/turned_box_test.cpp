@@ -8,12 +8,12 @@
 #include <numbers>
 #include <random>
 
-#include "plant/bench_settings.h"
+#include "plant/rig_settings.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
 #include "systems/robot/rotation.h"
-#include "tests/plant/bench_scene.h"
-#include "tests/plant/moving_bench.h"
+#include "tests/plant/moving_rig.h"
+#include "tests/plant/rig_scene.h"
 
 namespace flinch {
 namespace {
@@ -35,11 +35,11 @@ ConvexHull corners(const Box& box) {
 /// What `shape` at `position` does to the resting platform of the planar robot.
 Touch touch_of_platform(const std::shared_ptr<const PlanarRrr>& robot, const Shape& shape,
                         const Eigen::Vector3d& position, const ContactMaterial& material) {
-  BenchSettings settings;
+  RigSettings settings;
   settings.robot = robot;
   settings.obstacles = {std::make_shared<const FixedObstacle>(
       ObstacleForm{.name = "edge", .shape = shape, .position_in_base = position, .material = material})};
-  const test::MovingBench moving(settings);
+  const test::MovingRig moving(settings);
   for (int i = 0; i < moving.now.contacts.touch_count; ++i) {
     const Touch& touch = moving.now.contacts.touches[static_cast<std::size_t>(i)];
     if (touch.body == 0) return touch;
@@ -50,7 +50,7 @@ Touch touch_of_platform(const std::shared_ptr<const PlanarRrr>& robot, const Sha
 // The platform is round: its face or edge that is nearest to the origin is as deep in it as it is nearer than
 // the radius, and pushes along the line to there.
 TEST(ATurnedBox, PushesThePlatformByTheFaceOrEdgeThatIsNearest) {
-  const auto robot = test::individual_bench();
+  const auto robot = test::individual_rig();
   const double radius = robot->parameters().platform_hull_radius;
   const Eigen::Vector2d home = robot->home_pose().head<2>();
   const ContactMaterial elastic{.stiffness = 2e4, .restitution = 1.0};
@@ -88,25 +88,25 @@ TEST(HexapodAgainstATurnedBox, MovesAsAgainstTheHullOfItsCorners) {
   const Box box = turned_box({0.05, 0.08, 0.06}, {0.4, -0.7, 0.5});
   const ContactMaterial elastic{.stiffness = 2e4, .restitution = 1.0, .friction = 0.0};
   const auto moving_against = [&](const Shape& shape) {
-    BenchSettings settings;
+    RigSettings settings;
     settings.robot = std::make_shared<const Hexapod>(hexapod_robot());
     settings.initial_velocity = PlatformVector{{0.6, 0.1, 0.0, 0.2, 0.3, 0.4}};
     settings.link_material.reset();
     settings.obstacles = {std::make_shared<const FixedObstacle>(ObstacleForm{
         .name = "box", .shape = shape, .position_in_base = {0.40, 0.02, 0.62}, .material = elastic})};
-    return test::MovingBench(settings, {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-11});
+    return test::MovingRig(settings, {.relative_tolerance = 1e-10, .absolute_tolerance = 1e-11});
   };
-  test::MovingBench against_box = moving_against(box), against_hull = moving_against(corners(box));
+  test::MovingRig against_box = moving_against(box), against_hull = moving_against(corners(box));
   ASSERT_EQ(against_box.now.contacts.touch_count, 0);
   const double start = against_hull.now.kinetic_energy;
   double apart = 0.0, imbalance = 0.0, strongest = 0.0;
   for (int k = 0; k < 120; ++k) {
-    for (test::MovingBench* moving : {&against_box, &against_hull}) {
+    for (test::MovingRig* moving : {&against_box, &against_hull}) {
       moving->equation.drives.torque << 30.0, 35.0, 30.0, 35.0, 30.0, 40.0;
       moving->tick();
       ASSERT_TRUE(moving->now.reachable);
     }
-    const Mechanism& robot = against_box.bench->robot();
+    const Mechanism& robot = against_box.rig->robot();
     apart = std::max(apart, robot.difference(against_box.now.pose, against_hull.now.pose).norm());
     imbalance = std::max(imbalance, std::abs(against_hull.now.kinetic_energy - start - against_hull.work()));
     if (against_hull.now.contacts.touch_count > 0)

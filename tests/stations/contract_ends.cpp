@@ -42,8 +42,8 @@ OutputPort<Reading> inject(DiagramBuilder& builder, const std::string& name, Out
 
 Station add_simulated(DiagramBuilder& builder) {
   SimulatedStationSettings settings;
-  settings.bench.robot =
-      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  settings.rig.robot =
+      std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
   settings.drives.torque_constant.setConstant(3, contract_torque_constant);
   settings.drives.longest_silence = longest_age;
   return add_simulated_station(builder, settings);
@@ -68,7 +68,7 @@ ContactControlSettings patient() {
 
 std::shared_ptr<const PlanarRrr> contract_robot() {
   static const auto robot =
-      std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none));
+      std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none));
   return robot;
 }
 

@@ -57,7 +57,7 @@ class MockRobot final : public System {
     return {now, true, true, motion.position, inverse.joints.passive};
   }
   DriveReading measure(Time now, const Motion& motion) const { return {now, true, motion.current}; }
-  /// It hardly moves: mounted as on the bench, it feels the ground.
+  /// It hardly moves: mounted as on the rig, it feels the ground.
   ImuReading feel(Time now) const {
     const Eigen::Vector3d angles = SimulatedImuSettings().angles;
     const Eigen::Matrix3d platform_from_imu = (Eigen::AngleAxisd(angles[0], Eigen::Vector3d::UnitX()) *

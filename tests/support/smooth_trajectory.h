@@ -6,7 +6,7 @@
 
 namespace flinch::test {
 
-/// A platform motion known in closed form: in each coordinate a sine as fast as the bench is driven, up
+/// A platform motion known in closed form: in each coordinate a sine as fast as the rig is driven, up
 /// to 1.5 m/s, 19 m/s^2 and 240 m/s^3.
 struct SmoothTrajectory {
   Eigen::Vector3d pose;

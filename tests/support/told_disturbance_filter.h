@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "systems/estimators/disturbance_filter.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch::test {
 
-/// The disturbance filter of the planar bench, which is told by hand what it is given.
+/// The disturbance filter of the planar rig, which is told by hand what it is given.
 class ToldDisturbanceFilter {
  public:
   explicit ToldDisturbanceFilter(std::shared_ptr<const PlanarRrr> robot)

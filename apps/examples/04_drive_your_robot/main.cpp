@@ -3,7 +3,7 @@
 // serve'.
 //
 //   fieldbus --readings, statuswords--> guards ----------------------------------> bus
-//   fieldbus <--controlword, torque, brakes-- DriveMaster, PowerStage <--commands-- bus
+//   fieldbus <--controlword, torque, brakes-- DriveManager, PowerStage <--commands-- bus
 //
 // Replace the class in my_amplifiers.cpp; everything else can stay. As it is, three drives are pretended.
 //

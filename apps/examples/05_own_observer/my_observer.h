@@ -60,7 +60,7 @@ class MyObserver final : public flinch::System {
 
 /// How it is added to the control path.
 inline flinch::WrenchEstimator my_observer(double gain) {
-  return {"my_observer", [gain](const flinch::StageSite& site, const flinch::AcceleratedPorts& given) {
+  return {"my_observer", [gain](const flinch::StageContext& site, const flinch::AcceleratedPorts& given) {
             auto& block = site.builder.add<MyObserver>(site.name, gain);
             site.builder.connect(given.kinematics, block.kinematics);
             site.builder.connect(given.dynamics, block.dynamics);

@@ -82,13 +82,13 @@ bool run_into_the_wall() {
   const Verdict verdict =
       conclude_run(scenario, recorder.recording(recorded_attributes(scenario, {})), "out/example_06");
   const double touched = to_seconds(robot.touched().value_or(0s));
-  const double noticed = verdict.detections.empty() ? 0.0 : verdict.detections.front();
+  const double detected = verdict.detections.empty() ? 0.0 : verdict.detections.front();
   std::printf("touched at %.3f s, detected %.0f ms later, %s; fault: %s\n", touched,
-              1e3 * (noticed - touched), robot.touches() ? "still touching" : "removed",
+              1e3 * (detected - touched), robot.touches() ? "still touching" : "removed",
               verdict.fault.empty() ? "none" : "yes");
-  const bool soon = noticed >= touched && noticed < touched + 0.020;
+  const bool soon = detected >= touched && detected < touched + 0.020;
   const bool is_believed = context.get(experiment.station.imu).valid &&
-                           context.get(experiment.control.plausibility).imu_doubt == ImuDoubt::none;
+                           context.get(experiment.control.plausibility).imu_doubt == ImuFault::none;
   return robot.touched() && soon && !robot.touches() && verdict.fault.empty() && is_believed;
 }
 

@@ -39,7 +39,7 @@ class MyReaction final : public flinch::System {
 /// How it is added to the control path.
 inline flinch::ControlLaw my_reaction(double amplification, double damping) {
   return {"my_reaction",
-          [=](const flinch::StageSite& site, const flinch::ReactionPorts& given) -> flinch::LawPorts {
+          [=](const flinch::StageContext& site, const flinch::ReactionPorts& given) -> flinch::LawPorts {
             auto& block = site.builder.add<MyReaction>(site.name, amplification, damping);
             site.builder.connect(given.wrench, block.wrench);
             site.builder.connect(given.joint_motion, block.drives);

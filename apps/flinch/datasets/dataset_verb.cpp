@@ -33,13 +33,13 @@ std::size_t runs_of(const DataSpec& spec, const DataSet& data) {
 
 }  // namespace
 
-std::vector<CalibrationDoubt> check_data_spec(const std::filesystem::path& spec) {
-  return read_data_spec(spec).doubts;
+std::vector<CalibrationWarning> check_data_spec(const std::filesystem::path& spec) {
+  return read_data_spec(spec).warnings;
 }
 
 ExitStatus dataset(const DatasetOptions& options) {
   const DataSpec spec = read_data_spec(options.spec, {.runs = options.runs, .seed = options.seed});
-  for (const CalibrationDoubt& doubt : spec.doubts) print_message("warning: {}\n", doubt.sentence);
+  for (const CalibrationWarning& doubt : spec.warnings) print_message("warning: {}\n", doubt.sentence);
   const std::filesystem::path file =
       options.out.empty() ? std::filesystem::path("out") / (options.spec.stem().string() + ".h5")
                           : options.out;

@@ -23,7 +23,7 @@
 #include "experiments/recorded/replay.h"
 #include "experiments/report/run_folder.h"
 #include "experiments/scenario/scenario_calibrations.h"
-#include "experiments/verdict/recorded_doubts.h"
+#include "experiments/verdict/recorded_sensor_faults.h"
 #include "identification/dynamics_calibration.h"
 #include "identification/imu_pose_calibration.h"
 #include "identification/torque_constant_calibration.h"
@@ -145,11 +145,11 @@ ThresholdFindings thresholds_with(const std::vector<OpenedRecording>& motion,
       recordings.emplace_back(replays[i], nominal_samples(replays[i], space), played[i].control);
     });
     if (const std::string told = told_left_out(imu_left_out(replays[i])); !told.empty())
-      found.doubts.push_back(file + ": " + told);
+      found.warnings.push_back(file + ": " + told);
     keep_estimates(replays[i]);
   }
-  found.estimators = calibrate_thresholds(pooled(peaks), found.goal, found.doubts);
-  found.residuals = calibrate_residuals(recordings, found.goal, found.doubts);
+  found.estimators = calibrate_thresholds(pooled(peaks), found.goal, found.warnings);
+  found.residuals = calibrate_residuals(recordings, found.goal, found.warnings);
   found.drive_deviations =
       drive_deviations(recordings, *played.front().robot.robot, IsolationSettings().uncertainty);
   found.tracking = played.front().control.fused_detector.tracking;

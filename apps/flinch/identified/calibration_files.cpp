@@ -32,12 +32,13 @@ void note_robot(const Scenario& scenario, CalibrationResult& result) {
 }  // namespace
 
 void require_belief(CalibrationResult& result, bool accept) {
-  if (result.doubts.empty()) return;
+  if (result.contradictions.empty()) return;
   if (accept) {
-    result.warnings.insert(result.warnings.begin(), result.doubts.begin(), result.doubts.end());
+    result.warnings.insert(result.warnings.begin(), result.contradictions.begin(),
+                           result.contradictions.end());
     return;
   }
-  std::vector<std::string> problems = result.doubts;
+  std::vector<std::string> problems = result.contradictions;
   problems.push_back(
       "nothing was written; mend the recording or the belief, or take it as it is by --accept");
   throw SetupError(problems);

@@ -66,7 +66,7 @@ std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& s
   return shown;
 }
 
-std::unique_ptr<ShownRun> show_bench_live(const LiveOptions& live, const Scenario& scenario) {
+std::unique_ptr<ShownRun> show_rig_live(const LiveOptions& live, const Scenario& scenario) {
   if (!live.asked()) return nullptr;
   return std::make_unique<RunInBrowser>(scenario, settings_of(live, ShownPace::own));
 }

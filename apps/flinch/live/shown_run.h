@@ -43,6 +43,6 @@ using OrderFromPage = std::function<bool(std::string_view order)>;
 std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& scenario, ShownPace pace,
                                     OrderFromPage operator_order = {});
 /// The same of a robot that is served.
-std::unique_ptr<ShownRun> show_bench_live(const LiveOptions& live, const Scenario& scenario);
+std::unique_ptr<ShownRun> show_rig_live(const LiveOptions& live, const Scenario& scenario);
 
 }  // namespace flinch

@@ -14,7 +14,7 @@ namespace {
 
 }  // namespace
 
-std::vector<CalibrationDoubt> check_data_spec(const std::filesystem::path& spec) { refuse(spec); }
+std::vector<CalibrationWarning> check_data_spec(const std::filesystem::path& spec) { refuse(spec); }
 ExitStatus dataset(const DatasetOptions& options) { refuse(options.spec); }
 
 }  // namespace flinch

@@ -24,7 +24,7 @@ std::function<void(Scenario&)> classifier_of(const std::vector<std::filesystem::
 
 void add_network_stages() {
   for (const char* const name : {"papers_networks", "learned_classifier"}) {
-    const auto add = [name](const StageSite&, const ContactPorts&) -> OutputPort<ContactClassification> {
+    const auto add = [name](const StageContext&, const ContactPorts&) -> OutputPort<ContactClassification> {
       refuse(name);
     };
     add_known_classifier({name, add, true});

@@ -21,7 +21,7 @@ std::unique_ptr<ShownRun> show_live(const RunOptions& options, const Scenario& /
   return without_server(options.live);
 }
 
-std::unique_ptr<ShownRun> show_bench_live(const LiveOptions& live, const Scenario& /*scenario*/) {
+std::unique_ptr<ShownRun> show_rig_live(const LiveOptions& live, const Scenario& /*scenario*/) {
   return without_server(live);
 }
 

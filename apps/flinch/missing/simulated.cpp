@@ -19,11 +19,13 @@ ExitStatus run_simulated(const RunOptions& options) {
                    "(FLINCH_BUILD_PLANT=OFF); choose --station dds or recorded");
 }
 
-std::vector<CalibrationDoubt> check_campaign(const std::filesystem::path& file) {
+std::vector<CalibrationWarning> check_campaign(const std::filesystem::path& file) {
   throw SetupError(file.string() +
                    ": its runs are simulated, and this flinch was built without the simulation "
                    "(FLINCH_BUILD_PLANT=OFF)");
 }
+
+void check_figures(const std::filesystem::path& file) { check_campaign(file); }
 
 ExitStatus campaign(const CampaignOptions& options) {
   check_campaign(options.file);

@@ -1,4 +1,4 @@
-// flinch serve: the simulated bench on the bus; in real time as a driver program for real drives would be.
+// flinch serve: the simulated rig on the bus; in real time as a driver program for real drives would be.
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
@@ -10,14 +10,14 @@
 #include "apps/flinch/fault_options.h"
 #include "apps/flinch/live/shown_run.h"
 #include "apps/flinch/printing.h"
-#include "apps/flinch/served/bench_recorder.h"
 #include "apps/flinch/served/bus_warnings.h"
+#include "apps/flinch/served/rig_recorder.h"
 #include "apps/flinch/served/serve_in_lockstep.h"
 #include "drivers/dds_server.h"
 #include "drivers/robot_id.h"
 #include "drivers/wire_header.h"
 #include "experiments/bus/names.h"
-#include "experiments/served/served_bench.h"
+#include "experiments/served/served_rig.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "plant/sundials_integrator.h"
 #include "systems/foundation/json_text.h"
@@ -30,7 +30,7 @@
 namespace flinch {
 namespace {
 
-/// What is told of a served bench.
+/// What is told of a served rig.
 struct ServedState {
   Time time{};
   DriveState drives = DriveState::not_ready_to_switch_on;
@@ -39,12 +39,12 @@ struct ServedState {
 };
 
 /// Takes it from the loop to whoever tells it.
-class ServedWatch final : public Exchange {
+class ServedMonitor final : public Exchange {
  public:
-  ServedWatch(const ServedBench& bench, const DdsServer& server)
+  ServedMonitor(const ServedRig& rig, const DdsServer& server)
       : server_(server),
-        statusword_(bench.diagram->slot(bench.station.statusword)),
-        status_(bench.diagram->slot(bench.station.status)) {}
+        statusword_(rig.diagram->slot(rig.station.statusword)),
+        status_(rig.diagram->slot(rig.station.status)) {}
 
   void take_outputs(const Context& context) override {
     states_.publish({.time = context.time(),
@@ -122,22 +122,22 @@ ExitStatus serve_in_real_time(const SimulatedScenario& scenario, const ServeOpti
       .robot = robot_hash(scenario.robot_text),
       .longest_silence = DdsServerSettings::longest_silence_at(scenario.control_period),
       .robot_name = options.bus.robot};
-  const ServedBench bench = out_of(scenario.file, [&] {
-    return build_served_bench(scenario, settings.longest_silence, options.live.asked());
+  const ServedRig rig = out_of(scenario.file, [&] {
+    return build_served_rig(scenario, settings.longest_silence, options.live.asked());
   });
-  Context context = bench.diagram->make_context();
+  Context context = rig.diagram->make_context();
 
   const Interrupts interrupts;
   const BusSettings bus_is = bus_settings(options.bus, silent, BusRole::robot);
   settings.realtime_priority = bus_is.realtime_priority;
   const DdsBus bus(bus_is);
-  DdsServer server(bus, *bench.diagram, bench.station, settings);
-  ServedWatch watch(bench, server);
+  DdsServer server(bus, *rig.diagram, rig.station, settings);
+  ServedMonitor watch(rig, server);
   ExchangeList exchange({server, watch});
   ClockTicks ticks;
-  RealtimeRunner runner(*bench.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
-  const auto shown = show_bench_live(options.live, scenario);
-  if (shown) runner.record(bench_recorder(*shown, *bench.diagram, scenario));
+  RealtimeRunner runner(*rig.diagram, ticks, exchange, std::make_unique<SundialsIntegrator>());
+  const auto shown = show_rig_live(options.live, scenario);
+  if (shown) runner.record(rig_recorder(*shown, *rig.diagram, scenario));
   if (!silent) {
     print_message(
         "serving {} on {} as robot {} in real time (--lockstep: it waits for its controller); Ctrl-C ends "

@@ -10,12 +10,12 @@
 #include "apps/flinch/bus/status_line.h"
 #include "apps/flinch/live/shown_run.h"
 #include "apps/flinch/printing.h"
-#include "apps/flinch/served/bench_recorder.h"
 #include "apps/flinch/served/bus_warnings.h"
+#include "apps/flinch/served/rig_recorder.h"
 #include "drivers/lockstep_server.h"
 #include "drivers/robot_id.h"
 #include "drivers/wire_header.h"
-#include "experiments/served/served_bench.h"
+#include "experiments/served/served_rig.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "plant/sundials_integrator.h"
 #include "systems/foundation/json_text.h"
@@ -79,14 +79,14 @@ void tell_the_end(const LockstepState& state, const CommonOptions& common) {
 
 ExitStatus serve_in_lockstep(const SimulatedScenario& scenario, const ServeOptions& options) {
   const bool silent = options.common.quiet || options.common.json;
-  const WaitingBench bench =
-      out_of(scenario.file, [&] { return build_waiting_bench(scenario, options.live.asked()); });
+  const WaitingRig rig =
+      out_of(scenario.file, [&] { return build_waiting_rig(scenario, options.live.asked()); });
   const Interrupts interrupts;
   const double patience = options.patience.value_or(10.0);
   BusOptions where = options.bus;
   where.priority = 0;  // nothing is urgent
   const DdsBus bus(bus_settings(where, silent, BusRole::robot));
-  LockstepServer server(bus, *bench.diagram, bench.station,
+  LockstepServer server(bus, *rig.diagram, rig.station,
                         {.robot = robot_hash(scenario.robot_text),
                          .robot_name = where.robot,
                          .patience = from_seconds(patience)},
@@ -97,8 +97,8 @@ ExitStatus serve_in_lockstep(const SimulatedScenario& scenario, const ServeOptio
         "not that of the clock (--real-time: it is); Ctrl-C ends it\n",
         scenario.name, name_of(where), text_of(SeenRobot{server.robot_id(), where.robot}));
   }
-  const auto shown = show_bench_live(options.live, scenario);
-  if (shown) server.record(bench_recorder(*shown, *bench.diagram, scenario));
+  const auto shown = show_rig_live(options.live, scenario);
+  if (shown) server.record(rig_recorder(*shown, *rig.diagram, scenario));
   BusWarnings warnings(bus, server.robot_id(), Pace::lockstep, [&] {
     return BusWarnings::Commanders{server.unreadable_commanders(), server.state().in_real_time};
   });

@@ -73,7 +73,7 @@ ExitStatus campaign(const CampaignOptions& options) {
     helpers->work(campaign);
     return ExitStatus::done;
   }
-  for (const CalibrationDoubt& doubt : check_campaign(campaign))  // before anything is written
+  for (const CalibrationWarning& doubt : check_campaign(campaign))  // before anything is written
     print_message("warning: {}\n", doubt.sentence);
   std::optional<CountedAlarms> alarms;
   if (!options.false_alarms.empty()) alarms.emplace(campaign, options.false_alarms);

@@ -12,6 +12,7 @@
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/campaign/sweep.h"
 #include "experiments/report/run_folder.h"
+#include "experiments/reproduction/paper_file.h"
 #include "experiments/simulated/experiment.h"
 #include "experiments/simulated/simulated_scenario.h"
 #include "systems/foundation/problems_of_place.h"
@@ -63,9 +64,11 @@ Scenario check_scenario(const std::filesystem::path& file) {
   return static_cast<const Scenario&>(scenario);
 }
 
-std::vector<CalibrationDoubt> check_campaign(const std::filesystem::path& file) {
+std::vector<CalibrationWarning> check_campaign(const std::filesystem::path& file) {
   return check_campaign(read_campaign(file));
 }
+
+void check_figures(const std::filesystem::path& file) { read_paper_file(file); }
 
 Scenario scenario_of(const Recording& recording, const std::filesystem::path& file,
                      const std::filesystem::path& control) {

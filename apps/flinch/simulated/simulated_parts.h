@@ -26,7 +26,10 @@ Scenario check_scenario(const std::filesystem::path& file);
 
 /// Draws the first run of a campaign. Returns what is doubtful about its calibrations. Throws
 /// SetupError for all that is wrong with the file, and where this program was built without the simulation.
-std::vector<CalibrationDoubt> check_campaign(const std::filesystem::path& file);
+std::vector<CalibrationWarning> check_campaign(const std::filesystem::path& file);
+
+/// Reads a file of figures for flinch reproduce. Throws SetupError as check_campaign().
+void check_figures(const std::filesystem::path& file);
 
 /// The scenario that a recording was made from, or that of the file `control` if it is named. Where the run
 /// was simulated, and this program can, its parameters are those of the simulation, too. Throws SetupError

@@ -50,7 +50,7 @@ RunCall call_of_runs(const RunOptions& options) {
 ExitStatus run_sweep(const RunOptions& options) {
   Campaign sweep = read_sweep(options.input, options.set, options.seed);
   sweep.addition = addition_of(options.classifier, options.faults);
-  for (const CalibrationDoubt& doubt : check_campaign(sweep))  // before anything is written
+  for (const CalibrationWarning& doubt : check_campaign(sweep))  // before anything is written
     print_message("warning: {}\n", doubt.sentence);
   const RunFolder folder = folder_of(options, sweep.name + "_sweep");
   const StopWatch watch;

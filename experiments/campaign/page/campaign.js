@@ -10,7 +10,7 @@ function showCampaign() {
   mark.classList.add(campaign.faults === 0 ? "good" : "bad");
   const places = campaign.runs / campaign.draws;
   const each = places === 1 ? "" : ` at each of ${places} places of the grid`;
-  byId("summary").textContent = `${campaign.draws} ${campaign.draws === 1 ? "draw" : "draws"}${each}, ${number(campaign.simulated_h, 3)} h simulated. ` +
+  byId("summary").textContent = `${campaign.draws} ${campaign.draws === 1 ? "draw" : "draws"}${each}, ${duration(campaign.simulated_h)} simulated. ` +
     `A contact that is not detected within ${inMs(campaign.missed_after, 0)} ms counts as missed.`;
 }
 

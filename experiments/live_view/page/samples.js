@@ -69,7 +69,7 @@ function busySpans(name) {
   return lane ? laneSpans(lane).filter((span) => span.state > 0) : [];
 }
 
-/** Contacts as far as lanes tell of them: those that truly were, or else those that were noticed. */
+/** Contacts as far as lanes tell of them: those that truly were, or else those that were detected. */
 function contactsSeen() {
   const detections = busySpans("detector").map((span) => span.from);
   const truth = report.lanes.some((lane) => lane.name === "contact");

@@ -82,7 +82,7 @@ const player = {
     shape(byId("overview"), "path", { d: `M0 30${polyline(outline).replace("M", "L")}L${buckets} 30Z` });
   },
 
-  /** Where contacts last and where they were noticed. */
+  /** Where contacts last and where they were detected. */
   drawMarks() {
     const share = (time) => `${(100 * (time - wholeRun[0])) / (wholeRun[1] - wholeRun[0])}%`;
     for (const contact of report.contacts) {

@@ -191,8 +191,8 @@ class View {
     for (const mark of this.events) {
       set(mark.group, { visibility: mark.contact === current && sample >= mark.sample ? "visible" : "hidden" });
     }
-    const noticed = report.contacts.filter((contact) => contact.detected !== null && sampleAt(contact.detected) <= sample);
-    const age = noticed.length ? timeOf(sample) - noticed.at(-1).detected : Infinity;
+    const seen = report.contacts.filter((contact) => contact.detected !== null && sampleAt(contact.detected) <= sample);
+    const age = seen.length ? timeOf(sample) - seen.at(-1).detected : Infinity;
     const radius = (platformReach() + 0.3 * age) * this.scale;
     set(this.pulse, { ...centreOf(this.project(pose.position)), r: Math.min(radius, 1e3), opacity: Math.max(0, 1 - age / 0.25) });
   }

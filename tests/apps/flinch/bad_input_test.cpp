@@ -313,9 +313,10 @@ TEST_F(BadInput, PlaceOfAResultIsTriedBeforeAnythingIsComputed) {
   }
 }
 
-TEST_F(BadInput, GraphThatIsNeitherSvgNorDot) {
-  EXPECT_EQ(complaint({"graph", place.at(collision), "--out", place.at("out/loop.png")}),
-            "error: " + place.at("out/loop.png") + ": a graph is written as .svg or .dot, not as '.png'\n");
+TEST_F(BadInput, GraphOfNoKnownKind) {
+  EXPECT_EQ(
+      complaint({"graph", place.at(collision), "--out", place.at("out/loop.png")}),
+      "error: " + place.at("out/loop.png") + ": a graph is written as .html, .svg or .dot, not as '.png'\n");
 }
 
 TEST_F(BadInput, VerbThatNobodyKnows) {

@@ -130,6 +130,7 @@ TEST_F(FileVerbs, SayOfWhatKindAFileIsThatIsNotWanted) {
 TEST_F(FileVerbs, CheckClassifiersAndWhatMakesTheirData) {
   EXPECT_EQ(said_of(FLINCH_SOURCE_DIR "/apps/models/bodies.onnx"), ": a good classifier file\n");
   EXPECT_EQ(said_of(FLINCH_SOURCE_DIR "/apps/models/papers.yaml"), ": a good data specification file\n");
+  EXPECT_EQ(said_of(FLINCH_SOURCE_DIR "/apps/papers/papers.yaml"), ": a good figures file\n");
   place.write("broken.onnx", "\\");
   EXPECT_THAT(said_of(place.at("broken.onnx")), HasSubstr("ONNX"));
   place.write("data.yaml", "contacts: []\nseet: 1\n");

@@ -1,4 +1,4 @@
-// How early a contact can be detected at all with the sensors of the bench. FLINCH_CONTACTS in the
+// How early a contact can be detected at all with the sensors of the rig. FLINCH_CONTACTS in the
 // environment says of how many contacts of each sort; docs/observers.md cites 200.
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ constexpr double needed = 5.13;
 struct Trace {
   std::vector<JointVector> angle;  // of the drives
   std::vector<PlatformVector> velocity, acceleration;
-  std::optional<double> onset, noticed;  // [ms], of a force above 1 N, by the fused detector (latched)
+  std::optional<double> onset, detected;  // [ms], of a force above 1 N, by the fused detector (latched)
 };
 
 /// As far as `watched` after the onset, or `most` ticks.
@@ -54,7 +54,7 @@ Trace follow(const SimulatedScenario& scenario, std::size_t most) {
     if (!trace.onset && force > 1.0) trace.onset = tick - (force - 1.0) / (force - before);
     before = force;
     const bool says = context.get(fused->port).level != ContactLevel::none;
-    if (says && !trace.noticed) trace.noticed = tick;
+    if (says && !trace.detected) trace.detected = tick;
     if (trace.onset && tick > *trace.onset + static_cast<double>(watched / 1ms)) break;
   }
   return trace;
@@ -82,7 +82,7 @@ double floor_of(const Trace& touched, const Trace& free, const SimulatedStationS
 }
 
 SimulatedScenario without_obstacles(SimulatedScenario scenario) {
-  scenario.station.bench.obstacles.clear();
+  scenario.station.rig.obstacles.clear();
   scenario.station.force_torque.reset();
   return scenario;
 }
@@ -101,10 +101,10 @@ TEST(TheFusedDetector, NoticesContactsShortlyAfterTheFirstInstantAtWhichItsSenso
     for (std::size_t i = 0; i < contacts; ++i) {
       const SimulatedScenario scenario = draw_run(campaign, sort * contacts + i).scenario;
       const Trace touched = follow(scenario, static_cast<std::size_t>(scenario.duration / 1ms));
-      if (!touched.onset || (touched.noticed && *touched.noticed < *touched.onset)) continue;
+      if (!touched.onset || (touched.detected && *touched.detected < *touched.onset)) continue;
       const Trace free = follow(without_obstacles(scenario), touched.angle.size());
       floor.push_back(floor_of(touched, free, scenario.station));
-      fused.push_back(touched.noticed ? *touched.noticed - *touched.onset : never);
+      fused.push_back(touched.detected ? *touched.detected - *touched.onset : never);
     }
     ASSERT_GE(floor.size(), contacts * 9 / 10);
     const std::string& body = campaign.contact->bodies[sort];

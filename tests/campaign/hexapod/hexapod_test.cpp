@@ -44,33 +44,33 @@ double largest(const std::vector<double>& values) { return *std::max_element(val
 
 /// Of contacts.
 struct Tally {
-  int noticed = 0, removed = 0, faults = 0, false_detections = 0;
+  int detected = 0, removed = 0, faults = 0, false_detections = 0;
   std::vector<double> times, best;  // [ms]
   double peak_force = 0.0;          // [N]
 
   void count(const ContactOutcome& got) {
     EXPECT_TRUE(got.is_platform_alone);
-    noticed += std::isfinite(got.noticed) ? 1 : 0;
+    detected += std::isfinite(got.detected) ? 1 : 0;
     removed += std::isfinite(got.removed) ? 1 : 0;
     faults += got.verdict.fault.empty() ? 0 : 1;
     false_detections += got.verdict.false_detections;
-    times.push_back(got.noticed);
-    best.push_back(got.noticed_at_best);
+    times.push_back(got.detected);
+    best.push_back(got.detected_at_best);
     peak_force = std::max(peak_force, got.peak_force);
   }
   void print(const char* what) const {
     std::printf(
         "  %s: detected %d of %zu, after %.1f ms (median; at best %.1f), at most %.1f ms; removed %d; "
         "faults %d; false %d; peak %.0f N\n",
-        what, noticed, times.size(), test::median(times), test::median(best), largest(times), removed, faults,
-        false_detections, peak_force);
+        what, detected, times.size(), test::median(times), test::median(best), largest(times), removed,
+        faults, false_detections, peak_force);
   }
 };
 
 void print(const PlatformContact& contact, const ContactOutcome& got) {
   std::printf("  %-8s %5.2f  (%5.2f %5.2f %5.2f) %10.1f %8.1f %8.1f %7.0f\n",
               contact.ball_moves ? "ball" : "platform", contact.speed, contact.direction.x(),
-              contact.direction.y(), contact.direction.z(), got.noticed, got.noticed_at_best, got.removed,
+              contact.direction.y(), contact.direction.z(), got.detected, got.detected_at_best, got.removed,
               got.peak_force);
 }
 
@@ -86,7 +86,7 @@ Tally collide(Stiffness stiffness) {
     tally.count(got);
   }
   tally.print("all");
-  EXPECT_EQ(tally.noticed, trials);
+  EXPECT_EQ(tally.detected, trials);
   EXPECT_EQ(tally.removed, trials);
   EXPECT_EQ(tally.faults, 0);
   EXPECT_EQ(tally.false_detections, 0);
@@ -145,7 +145,7 @@ TEST(Hexapod, NoticesAllWhereTheFrictionOfEachDriveIsKnown) {
   EXPECT_LE(largest(got.moments), 2.4);
   EXPECT_EQ(got.faults, 0);
   for (const Tally* tally : {&got.hand, &got.pad}) {
-    EXPECT_EQ(tally->noticed, trials);
+    EXPECT_EQ(tally->detected, trials);
     EXPECT_EQ(tally->removed, trials);
     EXPECT_EQ(tally->faults, 0);
     EXPECT_EQ(tally->false_detections, 0);
@@ -158,7 +158,7 @@ TEST(Hexapod, NoticesMostWhereOnlyTheUsualFrictionIsKnown) {
   got.print("all compensated as usual");
   EXPECT_LE(test::median(got.forces), 53.0);
   EXPECT_LE(test::median(got.moments), 15.0);
-  EXPECT_GE(10 * got.hand.noticed, 9 * trials);
+  EXPECT_GE(10 * got.hand.detected, 9 * trials);
   EXPECT_EQ(got.hand.false_detections + got.pad.false_detections, 0);
 }
 

@@ -1,4 +1,4 @@
-// What calibrating a robot is good for: bench robots drawn anew, of which the controller believes 6.1 Nm/A at
+// What calibrating a robot is good for: rig robots drawn anew, of which the controller believes 6.1 Nm/A at
 // each drive and the masses and friction of the robot file. Thresholds for 0.5 false alarms an hour before
 // and after torque constants and dynamics are calibrated, and the times after which drawn contacts are
 // detected by them. The table is printed; docs/theory.md cites it. FLINCH_ROBOTS in the environment says how
@@ -39,7 +39,7 @@ constexpr Collision collisions[] = {{"platform_collision.yaml", 0.95},
 struct Stage {
   double force = 0.0, moment = 0.0;  ///< thresholds [N, Nm]
   std::vector<double> times;         ///< after which contacts were detected; infinite: never [ms]
-  int noticed = 0;
+  int detected = 0;
 };
 
 EstimatorThresholds thresholds_of(const CalibratedRobot& robot, bool calibrated) {
@@ -71,7 +71,7 @@ void collide(const CalibratedRobot& robot, bool calibrated, std::uint64_t seed, 
       const ContactVerdict& contact = verdict.contacts.front();
       const double never = std::numeric_limits<double>::infinity();
       stage.times.push_back(contact.detected ? 1e3 * (*contact.detected - contact.onset) : never);
-      stage.noticed += contact.detected ? 1 : 0;
+      stage.detected += contact.detected ? 1 : 0;
       EXPECT_EQ(verdict.false_detections, 0);
     }
   }
@@ -85,7 +85,7 @@ double median(std::vector<double> values) {
 TEST(CalibratedRobots, NoticeContactsSoonerByLowerThresholds) {
   const auto robots = test::wanted<std::uint64_t>("FLINCH_ROBOTS", 4);
   std::vector<double> before, after, factors;
-  int noticed_before = 0, noticed_after = 0;
+  int detected_before = 0, detected_after = 0;
   std::printf("  robot   threshold before           after      detected after, median before, after\n");
   for (std::uint64_t seed = 1; seed <= robots; ++seed) {
     CalibratedRobot robot(seed);
@@ -104,15 +104,15 @@ TEST(CalibratedRobots, NoticeContactsSoonerByLowerThresholds) {
                 median(calibrated.times));
     before.insert(before.end(), nominal.times.begin(), nominal.times.end());
     after.insert(after.end(), calibrated.times.begin(), calibrated.times.end());
-    noticed_before += nominal.noticed, noticed_after += calibrated.noticed;
+    detected_before += nominal.detected, detected_after += calibrated.detected;
     factors.push_back(nominal.force / calibrated.force);
   }
   std::printf(
       "  thresholds lower by %.1f (median); detected %d and %d of %zu, after %.1f and %.1f ms (median)\n",
-      median(factors), noticed_before, noticed_after, before.size(), median(before), median(after));
+      median(factors), detected_before, detected_after, before.size(), median(before), median(after));
   EXPECT_GT(median(factors), 2.0);
   EXPECT_LT(median(after), 0.8 * median(before));
-  EXPECT_EQ(noticed_after, static_cast<int>(after.size()));
+  EXPECT_EQ(detected_after, static_cast<int>(after.size()));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // dynamics from a motion that excites them, then error sizes and thresholds for half a false alarm an hour
 // from 90 s of motion without contact, in which the robots also stand still, each robot by its own or by
 // those of others. Beside them the same contacts with the same robots before, and as near to their model as
-// `bench` says, with the thresholds that ship. One robot alone moves for 45 s.
+// `rig` says, with the thresholds that ship. One robot alone moves for 45 s.
 // FLINCH_ROBOTS, FLINCH_CONTACTS and FLINCH_RUNS in the environment say how many robots, contacts of each
 // sort, and runs without contact in which false alarms are counted; docs/observers.md cites 20 robots and 200
 // contacts.
@@ -53,21 +53,21 @@ const Observer fast{
 
 /// A robot in motion without contact, and what its controller knows of it.
 struct Robot {
-  SimulatedScenario as_bench;  ///< nearer to its model, with its torque constants known to 1.5 %
-  SimulatedScenario before;    ///< as calibration_motion.yaml has it, with 6.1 Nm/A
-  FreeMotion after;            ///< once it was calibrated
+  SimulatedScenario as_rig;  ///< nearer to its model, with its torque constants known to 1.5 %
+  SimulatedScenario before;  ///< as calibration_motion.yaml has it, with 6.1 Nm/A
+  FreeMotion after;          ///< once it was calibrated
 };
 
 constexpr const char* constants = "  drive_torque: {torque_constant_Nm_per_A: [6.021, 6.6116, 6.7315]}\n";
 constexpr const char* believed = "  drive_torque: {torque_constant_Nm_per_A: [6.1, 6.1, 6.1]}\n";
-constexpr const char* bench = "plant: {realism: bench}";
+constexpr const char* rig = "plant: {realism: bench}";
 constexpr const char* drawn =
     "plant: {realism: {like: bench, leg_inertia: 0.1, platform_inertia: 0.1, torque_constant: 0}}";
 
 SimulatedScenario motion_of(const CalibratedRobot& robot, const char* realism, const char* known_constants,
                             const Observer& observer, double seconds) {
   return robot.scenario("random_motion.yaml",
-                        {{bench, realism},
+                        {{rig, realism},
                          {constants, known_constants},
                          {usual.in_file, observer.in_file},
                          {"duration_s: 36", "duration_s: " + std::to_string(seconds + 1.5)},
@@ -78,11 +78,11 @@ SimulatedScenario motion_of(const CalibratedRobot& robot, const char* realism, c
 /// A robot drawn from a seed, which moves for so many seconds once it was calibrated.
 Robot calibrated(std::uint64_t seed, const Observer& observer, double seconds) {
   CalibratedRobot robot(seed);
-  SimulatedScenario as_bench = motion_of(robot, bench, constants, observer, seconds);
+  SimulatedScenario as_rig = motion_of(robot, rig, constants, observer, seconds);
   SimulatedScenario before = motion_of(robot, drawn, believed, observer, seconds);
   robot.torque_constants("calibration_pulls.yaml");
   robot.dynamics("calibration_excitation.yaml");
-  return {std::move(as_bench), std::move(before),
+  return {std::move(as_rig), std::move(before),
           test::free_motion(motion_of(robot, drawn, "", observer, seconds))};
 }
 
@@ -107,7 +107,7 @@ std::vector<OwnThresholds> thresholds_of_others(const std::vector<Robot>& robots
 
 /// A fused detector that judges by other sizes and thresholds than those of the scenario.
 DetectionStage judging_by(const std::vector<FusedResidual>& residuals) {
-  return {of_others, [residuals](const StageSite& site, const EstimatePorts& given) {
+  return {of_others, [residuals](const StageContext& site, const EstimatePorts& given) {
             ContactControlSettings settings = site.settings;
             settings.fused_detector.residuals = residuals;
             return add_fused_detector({site.builder, site.name, site.robot, settings, site.shared}, given);
@@ -130,9 +130,9 @@ Campaign contacts_of(std::size_t draws, const Observer& observer) {
 }
 
 /// What detectors detected in the runs of a campaign.
-class Noticed {
+class Detected {
  public:
-  explicit Noticed(std::vector<RunResult> results) : results_(std::move(results)) {
+  explicit Detected(std::vector<RunResult> results) : results_(std::move(results)) {
     for (const RunResult& result : results_) {
       for (const EstimatorResult& by : result.estimators) {
         groups_[by.name][result.body].add(result, by, missed_after);
@@ -219,16 +219,16 @@ Calibrated calibrated(std::size_t count, const Observer& observer) {
 }
 
 /// What the controller of a robot knows of it.
-enum class Knows { as_bench, before, itself };
+enum class Knows { as_rig, before, itself };
 
 const SimulatedScenario& with(const Robot& robot, Knows what) {
   if (what == Knows::itself) return robot.after.scenario;
-  return what == Knows::before ? robot.before : robot.as_bench;
+  return what == Knows::before ? robot.before : robot.as_rig;
 }
 
 /// The runs of a campaign, with one robot after the other.
-Noticed runs_of(const Campaign& campaign, const Calibrated& of, Knows what) {
-  return Noticed(test::in_parallel(
+Detected runs_of(const Campaign& campaign, const Calibrated& of, Knows what) {
+  return Detected(test::in_parallel(
       campaign.runs(),
       [&](std::size_t number) {
         CampaignRun run = draw_run(campaign, number);
@@ -253,7 +253,7 @@ struct Comparison {
   std::size_t differ() const { return sooner + later; }
 };
 
-Comparison compared(const Noticed& before, const Noticed& after, const std::string& detector) {
+Comparison compared(const Detected& before, const Detected& after, const std::string& detector) {
   constexpr double half_a_tick = 0.5e-3;  // [s]
   const auto was = before.times(detector), is = after.times(detector);
   Comparison result;
@@ -275,21 +275,21 @@ const Times of_calibrated{{"platform", 4.8e-3}, {"link1", 8.0e-3}, {"link2", 7.3
 const Times of_fast_observer{{"platform", 5e-3}, {"link1", 8e-3}, {"link2", 8e-3}, {"clamping", 9e-3}};
 
 /// Nothing refutes that a detector has detected such a share by then.
-void expect_noticed(double share, const Times& by, const std::string& detector, const Noticed& noticed) {
+void expect_detected(double share, const Times& by, const std::string& detector, const Detected& detected) {
   for (const auto& [body, time] : by) {
-    const std::size_t soon = noticed.detected_by(time, detector, body);
-    EXPECT_GE(clopper_pearson_upper(soon, noticed.of(detector, body).contacts, 0.999), share) << body;
+    const std::size_t soon = detected.detected_by(time, detector, body);
+    EXPECT_GE(clopper_pearson_upper(soon, detected.of(detector, body).contacts, 0.999), share) << body;
   }
 }
 
 TEST(CalibratedThemselves, RobotsNoticeContactsSoonerAtTheRateOfFalseAlarmsThatIsAsked) {
   const Calibrated all = calibrated(test::wanted<std::size_t>("FLINCH_ROBOTS", 1), usual);
   const Campaign contacts = contacts_of(test::wanted<std::size_t>("FLINCH_CONTACTS", 5), usual);
-  const Noticed before = runs_of(contacts, all, Knows::before);
+  const Detected before = runs_of(contacts, all, Knows::before);
   before.print("before calibration, thresholds that ship");
-  const Noticed near = runs_of(contacts, all, Knows::as_bench);
+  const Detected near = runs_of(contacts, all, Knows::as_rig);
   near.print("as near to their model as bench, thresholds that ship");
-  const Noticed after = runs_of(contacts, all, Knows::itself);
+  const Detected after = runs_of(contacts, all, Knows::itself);
   after.print("after calibration, thresholds of their own");
 
   for (const char* const detector : {"momentum_observer", "disturbance_filter", "imu_residual"}) {
@@ -299,24 +299,24 @@ TEST(CalibratedThemselves, RobotsNoticeContactsSoonerAtTheRateOfFalseAlarmsThatI
   const Comparison fused = compared(near, after, own);
   EXPECT_GE(clopper_pearson_upper(fused.sooner, fused.differ()), 0.5);
   EXPECT_EQ(after.of(own, "platform").missed, 0U);
-  expect_noticed(0.9, of_calibrated, own, after);
+  expect_detected(0.9, of_calibrated, own, after);
 
   const Campaign motion =
       with_other_robots("false_alarms", test::wanted<std::size_t>("FLINCH_RUNS", 1), {"motion.pause_ms=300"});
-  const Noticed noticed = runs_of(motion, all, Knows::itself);
-  noticed.print("motion without contact");
-  for (const std::string& detector : noticed.detectors()) {
-    const CampaignGroup alarms = noticed.of(detector);
+  const Detected detected = runs_of(motion, all, Knows::itself);
+  detected.print("motion without contact");
+  for (const std::string& detector : detected.detectors()) {
+    const CampaignGroup alarms = detected.of(detector);
     EXPECT_LE(lower_rate(alarms.false_alarms, alarms.contact_free / 3600.0), asked) << detector;
   }
 }
 
 TEST(CalibratedThemselves, RobotsNeedNoMoreThanAMomentumObserverToNoticeHalfOfAllContactsAsSoonAsAsked) {
   const Calibrated all = calibrated(test::wanted<std::size_t>("FLINCH_ROBOTS", 1), fast);
-  const Noticed noticed =
+  const Detected detected =
       runs_of(contacts_of(test::wanted<std::size_t>("FLINCH_CONTACTS", 5), fast), all, Knows::itself);
-  noticed.print("after calibration, momentum observer at 150 1/s with velocities at 60 Hz");
-  expect_noticed(0.5, of_fast_observer, "momentum_observer", noticed);
+  detected.print("after calibration, momentum observer at 150 1/s with velocities at 60 Hz");
+  expect_detected(0.5, of_fast_observer, "momentum_observer", detected);
 }
 
 }  // namespace

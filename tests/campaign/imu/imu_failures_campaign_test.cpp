@@ -47,7 +47,7 @@ TEST_P(ImuFailures, AreNamedStopNothingAndHideNoContact) {
       for (const std::string& name : each.missed) ADD_FAILURE() << each.told << " missed by " << name;
     }
   }
-  if (GetParam().right == ImuDoubt::late) {
+  if (GetParam().right == ImuFault::late) {
     const auto shown = static_cast<std::size_t>(std::count_if(
         moving.begin(), moving.end(), [](const auto& each) { return each.shown && *each.shown < 20ms; }));
     const std::size_t overdue = named_late_since_shown(moving);
@@ -57,9 +57,9 @@ TEST_P(ImuFailures, AreNamedStopNothingAndHideNoContact) {
   }
   const auto late = std::count_if(moving.begin(), moving.end(),
                                   [](const ImuOutcome& each) { return !each.named || *each.named > 20ms; });
-  const bool needs_motion = GetParam().right == ImuDoubt::late || GetParam().right == ImuDoubt::turned;
+  const bool needs_motion = GetParam().right == ImuFault::late || GetParam().right == ImuFault::turned;
   EXPECT_LE(static_cast<std::size_t>(late), needs_motion ? count / 2 : count / 20);
-  const std::size_t allowed = GetParam().right == ImuDoubt::late ? count / 5 : count / 20;
+  const std::size_t allowed = GetParam().right == ImuFault::late ? count / 5 : count / 20;
   EXPECT_LE(false_contacts(moving) + false_contacts(touched), allowed);
 }
 
@@ -79,7 +79,7 @@ TEST_P(ImuFailuresWithJitter, AreNamedAndStopNothing) {
   }
   const auto late = std::count_if(moving.begin(), moving.end(),
                                   [](const ImuOutcome& each) { return !each.named || *each.named > 20ms; });
-  const bool needs_motion = GetParam().right == ImuDoubt::late || GetParam().right == ImuDoubt::turned;
+  const bool needs_motion = GetParam().right == ImuFault::late || GetParam().right == ImuFault::turned;
   EXPECT_LE(static_cast<std::size_t>(late), needs_motion ? count / 2 : count / 10);
   fmt::print("  {} of {} with a false contact\n", false_contacts(moving) + false_contacts(touched),
              2 * count);
@@ -89,8 +89,8 @@ TEST(HonestUnits, AreNotDoubtedForTheirJitter) {
   const auto count = test::wanted<std::size_t>("FLINCH_IMU_FAILURES", 20);
   int doubted = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const ImuDoubt doubt = doubt_of_honest_unit(i, 1ms);
-    if (doubt == ImuDoubt::none) continue;
+    const ImuFault doubt = doubt_of_honest_unit(i, 1ms);
+    if (doubt == ImuFault::none) continue;
     fmt::print("  {}: {}\n", i, name(doubt));
     ++doubted;
   }

@@ -48,7 +48,7 @@ inline std::optional<DrawnContact> add_post(SimulatedScenario& scenario, const s
     const auto place = draw_contact(scenario, kinds[random() % kinds.size()], post.shape, random);
     if (!place || place->body == touched) continue;
     post.position_in_base = place->position_in_base;
-    scenario.station.bench.obstacles.push_back(std::make_shared<const FixedObstacle>(post));
+    scenario.station.rig.obstacles.push_back(std::make_shared<const FixedObstacle>(post));
     return place;
   }
   return std::nullopt;

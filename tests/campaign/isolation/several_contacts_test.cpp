@@ -169,12 +169,12 @@ TEST(SeveralContacts, AreSeldomSaidOfOne) {
                           test::wanted<std::size_t>("FLINCH_CONTACTS", 20),
                           test::wanted<std::uint64_t>("FLINCH_SEED", 51));
   std::array<BySort, 2> answers;
-  int not_noticed = 0, more_than_one = 0;
+  int not_detected = 0, more_than_one = 0;
   for (std::size_t i = 0; i < contacts.count(); ++i) {
     const Touched run(contacts.draw(i));
     const std::size_t sample = run.detection() + window;
     if (sample >= run.samples()) {
-      ++not_noticed;
+      ++not_detected;
       continue;
     }
     const std::optional<int> touched = class_of(run, touched_until(run, sample));
@@ -184,7 +184,7 @@ TEST(SeveralContacts, AreSeldomSaidOfOne) {
     }
     add(run, sample, sort_of({run.robot->body_count(), run.robot->legs()}, *touched), answers);
   }
-  std::printf("one thing touches; not detected: %d, touched otherwise as well: %d\n", not_noticed,
+  std::printf("one thing touches; not detected: %d, touched otherwise as well: %d\n", not_detected,
               more_than_one);
   for (BySort& of_classifier : answers) {
     Answers all;
@@ -219,7 +219,7 @@ TEST(SeveralContacts, AreToldWhereNoSingleOneMakesTheTrueWrench) {
   const Contacts contacts({"platform", "link1", "link2"}, test::wanted<std::size_t>("FLINCH_PAIRS", 150) / 3,
                           test::wanted<std::uint64_t>("FLINCH_SEED", 51));
   std::array<BySort, 2> answers;
-  int not_noticed = 0, one_only = 0;
+  int not_detected = 0, one_only = 0;
   for (std::size_t i = 0; i < contacts.count(); ++i) {
     SimulatedScenario scenario = contacts.draw(i);
     RandomGenerator random(derive_seed(scenario.seed, "second post"));
@@ -227,7 +227,7 @@ TEST(SeveralContacts, AreToldWhereNoSingleOneMakesTheTrueWrench) {
     const Touched run(scenario);
     const std::size_t detection = run.detection(), sample = detection + window;
     if (sample >= run.samples()) {
-      ++not_noticed;
+      ++not_detected;
     } else if (!both_touch(run, detection)) {
       ++one_only;
     } else {
@@ -235,7 +235,7 @@ TEST(SeveralContacts, AreToldWhereNoSingleOneMakesTheTrueWrench) {
       add(run, sample, sort_by(missed_by_one(run, detection)), answers);
     }
   }
-  std::printf("two posts touch at once; not detected: %d, only one touched: %d\n", not_noticed, one_only);
+  std::printf("two posts touch at once; not detected: %d, only one touched: %d\n", not_detected, one_only);
   for (const auto& [sort, said] : answers[0])
     std::printf("  %s: %s\n", sort.c_str(), share(said.said, answers[0]["all"].said).c_str());
   print_shares(answers);

@@ -149,7 +149,7 @@ TEST(TwoContacts, AreToldAndBothPlaced) {
   std::array<Told, 3> told{Told{.least = 5.0}, Told{.least = 10.0}, Told{.least = 20.0}};
   for (std::size_t number = 0; number < pairs.runs(); ++number) {
     SimulatedScenario scenario = draw_run(pairs, number).scenario;
-    scenario.station.bench.obstacles.resize(1);
+    scenario.station.rig.obstacles.resize(1);
     RandomGenerator random(derive_seed(scenario.seed, "second post"));
     if (!test::add_post(scenario, scenario.expected.contact.value_or(""), random)) continue;
     const Touched run(scenario, {"located_contacts"});

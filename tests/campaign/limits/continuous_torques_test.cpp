@@ -198,7 +198,7 @@ Steps steps_of(const SimulatedScenario& scenario, std::size_t number) {
   const OutputPort<TorqueCommand> kept = torque("limits");
   Watch watch(reaction == "strict_reaction");
   std::mt19937 random(static_cast<unsigned>(number));
-  bool noticed = false;
+  bool detected = false;
   while (context.time() < scenario.duration) {
     loop.tick();
     Tick now{.mode = context.get(loop.control.reaction_state).mode,
@@ -210,9 +210,9 @@ Steps steps_of(const SimulatedScenario& scenario, std::size_t number) {
              .sent = context.get(loop.control.torque_command)};
     for (std::size_t i = 0; i < laws.size(); ++i) now.laws[i] = context.get(laws[i]);
     if (now.gate != GatePhase::waiting) watch.see(now);
-    noticed = noticed || now.mode == ReactionMode::react || now.mode == ReactionMode::zero_g;
+    detected = detected || now.mode == ReactionMode::react || now.mode == ReactionMode::zero_g;
     // Hardly anybody is so restless: that brings switches in all orders.
-    const auto presses = [&](unsigned once_in) { return noticed && random() % once_in == 0; };
+    const auto presses = [&](unsigned once_in) { return detected && random() % once_in == 0; };
     context.set(loop.buttons,
                 OperatorCommand{.start = presses(150), .reset = presses(30), .stop = presses(200)});
   }

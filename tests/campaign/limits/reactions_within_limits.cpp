@@ -173,12 +173,12 @@ ReactionOutcome outcome_of(const CampaignRun& run) {
     holding.see(time, modes[k].mode, contact.strongest.force_in_base.norm(),
                 truth.velocity.head(translations).norm(), outcome);
     if (contact.in_contact && !outcome.touched) measure_unavoidable(run, truth, contact, outcome);
-    const bool is_noticed = outcome.detected || detections[k].level != ContactLevel::none;
-    if (k == 0 || from_the_start || is_noticed) measure_place(robot, truth, outcome);
+    const bool is_detected = outcome.detected || detections[k].level != ContactLevel::none;
+    if (k == 0 || from_the_start || is_detected) measure_place(robot, truth, outcome);
     if (k == 0) {
       outcome.starts_inside = outcome.sigma_kappa <= sigma_kappa_s && outcome.sigma_sc >= sigma_sc_s;
     }
-    if (!is_noticed) continue;
+    if (!is_detected) continue;
     outcome.detected = true;
     if (keeps_safety_values) note_stop(robot, truth, brakings[k], outcome);
   }

@@ -14,7 +14,7 @@
 #include "experiments/campaign/exact_bounds.h"
 #include "experiments/verdict/verdict.h"
 #include "tests/campaign/limits/unavoidable_force.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/wanted.h"
 
 namespace flinch {
@@ -197,7 +197,7 @@ TEST(TheStrictReaction, KeepsTheLimitsFromTheDetectionOnWhereItCouldStopWithinTh
 
 TEST(UnavoidableForce, IsThatOfAMassAgainstASpringWhereDrivesDoNothing) {
   // f^2 / k + m v^2 stays what it is.
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   Kinematics at;
   Dynamics dynamics;
   RecordedTruth moving;

@@ -157,16 +157,16 @@ TEST(DoubtsAboutCalibrations, AreToldOfEveryValueOfTheGrid) {
   const std::string axis =
       "grid:\n  - {key: control.momentum_observer.gain_per_s, values: [[20, 20, 20], [40, 40, 40]]}\n"
       "  - {key: control.disturbance_filter.pole_per_s, values: [";
-  const auto doubts = [&](const std::string& poles) {
+  const auto warnings = [&](const std::string& poles) {
     place.write("campaigns/own.yaml", "scenario: " FLINCH_SOURCE_DIR
                                       "/apps/scenarios/platform_collision_fused.yaml\nruns: 1\n" +
                                           axis + poles + "]}\n");
     return check_keys(read_campaign(place / "campaigns/own.yaml"));
   };
-  const auto of_gain = doubts("300");  // the thresholds are of 20 1/s
+  const auto of_gain = warnings("300");  // the thresholds are of 20 1/s
   ASSERT_EQ(of_gain.size(), 1U);
   EXPECT_THAT(of_gain[0].sentence, HasSubstr("control.momentum_observer.gain"));
-  const auto of_both = doubts("300, 150");
+  const auto of_both = warnings("300, 150");
   ASSERT_EQ(of_both.size(), 2U);
   EXPECT_THAT(of_both[1].sentence, HasSubstr("control.disturbance_filter.pole"));
 }

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
+#include <vector>
 
 namespace flinch {
 namespace {
@@ -54,6 +57,42 @@ TEST(ConfidenceBelow, IsTheInverseOfTheUpperShare) {
                   1e-9);
   }
   EXPECT_EQ(confidence_below(7, 7, 0.9), 0.0);
+}
+
+// Ranks of tables of the sign test's interval for a median: 2 and 9 of 10, 6 and 15 of 20, 40 and 61 of 100.
+TEST(RanksAroundQuantile, AreThoseOfTablesForTheMedian) {
+  for (const auto& [count, lower, upper] :
+       {std::tuple(6U, 1U, 6U), {10U, 2U, 9U}, {20U, 6U, 15U}, {100U, 40U, 61U}}) {
+    const RankBounds ranks = ranks_around_quantile(count, 0.5);
+    EXPECT_EQ(ranks.lower, lower);
+    EXPECT_EQ(ranks.upper, upper);
+  }
+  EXPECT_FALSE(ranks_around_quantile(5, 0.5).lower);  // the chance that all five lie above it is 3 %
+}
+
+TEST(RanksAroundQuantile, HoldTheQuantileAsOftenAsTheySay) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> value(0.0, 1.0);
+  for (const double share : {0.5, 0.9}) {
+    const RankBounds ranks = ranks_around_quantile(60, share);
+    ASSERT_TRUE(ranks.lower && ranks.upper);
+    int held = 0;
+    constexpr int trials = 20000;
+    for (int i = 0; i < trials; ++i) {
+      std::vector<double> sample(60);
+      for (double& each : sample) each = value(random);
+      std::sort(sample.begin(), sample.end());
+      held += sample[*ranks.lower - 1] <= share && share <= sample[*ranks.upper - 1] ? 1 : 0;
+    }
+    EXPECT_GE(held, static_cast<int>(0.945 * trials));
+    EXPECT_LE(held, static_cast<int>(0.985 * trials));  // no wider than whole ranks make it
+  }
+}
+
+TEST(RanksAroundQuantile, LeaveOpenWhatASmallSampleCannotBound) {
+  const RankBounds ranks = ranks_around_quantile(20, 0.9);
+  EXPECT_TRUE(ranks.lower);
+  EXPECT_FALSE(ranks.upper);  // all of 20 lie below it with 12 %
 }
 
 // Sizes of samples without an event and with one, of tables of tolerance limits: 29 and 46 for 90 %, 59 and

@@ -116,7 +116,7 @@ TEST(ReactionSummary, NamesNoEstimatorWhereSeveralWereFollowed) {
   other.estimators.front().name = "filter";
   const ReactionSummary summary =
       reactions_of({run("torque_reaction", "platform", 0.1, 1.0, 100.0), other, other});
-  EXPECT_EQ(summary.groups[0].noticed.contacts, 3U);
+  EXPECT_EQ(summary.groups[0].detection.contacts, 3U);
   EXPECT_TRUE(nlohmann::json::parse(reactions_json({}, summary, {}))["groups"][0]["estimator"].is_null());
 }
 

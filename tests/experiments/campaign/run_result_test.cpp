@@ -10,7 +10,7 @@
 #include "experiments/campaign/campaign_run.h"
 #include "experiments/verdict/verdict.h"
 #include "systems/laws/safety_filter.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 
 namespace flinch {
 namespace {
@@ -64,7 +64,7 @@ TEST(CellsOfCsv, MayHoldCommasAndQuotes) {
 
 /// Two estimators that first detected something at these times, and detected the contact at those.
 Verdict verdict_with(double onset, std::vector<std::optional<double>> first,
-                     std::vector<std::optional<double>> contact_noticed) {
+                     std::vector<std::optional<double>> contact_detected) {
   Verdict verdict;
   ContactVerdict contact;
   contact.body = "leg3_clamping";
@@ -72,7 +72,7 @@ Verdict verdict_with(double onset, std::vector<std::optional<double>> first,
   for (const char* name : {"observer", "filter"}) {
     const std::size_t i = verdict.first_detected.size();
     verdict.first_detected.push_back({name, first[i]});
-    contact.detected_by.push_back({name, contact_noticed[i]});
+    contact.detected_by.push_back({name, contact_detected[i]});
   }
   verdict.contacts.push_back(contact);
   verdict.simulated = 1.0;
@@ -89,9 +89,9 @@ TEST(AResult, CountsFromTheOnsetOfTheFirstContact) {
   EXPECT_EQ(result.estimators[0].contact_free, 0.5);
 }
 
-TEST(AResult, TellsWhetherTheRobotCouldStopWhenItNoticedTheFirstContact) {
+TEST(AResult, TellsWhetherTheRobotCouldStopWhenItDetectedTheFirstContact) {
   CampaignRun strict;
-  keep_constraints_strictly(*test::planar_bench(), strict.scenario.control);
+  keep_constraints_strictly(*test::planar_rig(), strict.scenario.control);
   Verdict verdict = verdict_with(0.5, {0.51, 0.52}, {0.51, 0.52});
   EXPECT_EQ(result_of(strict, verdict).could_stop, std::nullopt);
   verdict.contacts[0].could_stop = false;

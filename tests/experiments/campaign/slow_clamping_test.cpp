@@ -23,8 +23,8 @@ constexpr double largest_N = 10.0;  // thresholds of [SafePR]
 constexpr double largest_Nm = 1.0;
 
 struct SlowClamping {
-  double reached = 0.0;  ///< from the onset until the true wrench reaches the papers' thresholds [s]
-  double noticed = 0.0;  ///< likewise until the robot detects
+  double reached = 0.0;   ///< from the onset until the true wrench reaches the papers' thresholds [s]
+  double detected = 0.0;  ///< likewise until the robot detects
   double removed = 0.0;
 };
 
@@ -33,7 +33,7 @@ SlowClamping measured(const CampaignRun& run) {
   const Verdict verdict = judge(recording, run.scenario.robot.robot->space(), run.scenario.expected, {});
   const ContactVerdict& contact = verdict.contacts.at(0);
   SlowClamping found{.reached = std::nan(""),
-                     .noticed = contact.detected.value_or(std::nan("")) - contact.onset,
+                     .detected = contact.detected.value_or(std::nan("")) - contact.onset,
                      .removed = contact.removed.value_or(std::nan("")) - contact.onset};
   const auto truths = read<RecordedTruth>(recording, "truth");
   for (std::size_t k = 0; k < recording.samples() && std::isnan(found.reached); ++k) {
@@ -57,7 +57,7 @@ std::vector<SlowClamping> slow_clampings(const std::string& name, const std::str
     if (run.scenario.expected.contact != "leg1_clamping") continue;
     all.push_back(measured(run));
     std::printf("  %s: 10 N or 1 Nm after %.0f ms, detected %.0f ms, removed %.0f ms\n", name.c_str(),
-                1e3 * all.back().reached, 1e3 * all.back().noticed, 1e3 * all.back().removed);
+                1e3 * all.back().reached, 1e3 * all.back().detected, 1e3 * all.back().removed);
   }
   EXPECT_EQ(all.size(), 3U);
   return all;
@@ -66,8 +66,8 @@ std::vector<SlowClamping> slow_clampings(const std::string& name, const std::str
 TEST(AClampingAtLowSpeed, ReachesThePapersThresholdsTooLateForAnyEstimator) {
   for (const SlowClamping& one : slow_clampings("safepr_72_oracle.yaml")) {
     EXPECT_GT(one.reached, asked);
-    EXPECT_LT(one.noticed - one.reached, 0.06) << "the observer's part";
-    EXPECT_LT(one.removed - one.noticed, 0.07) << "the reaction's part";
+    EXPECT_LT(one.detected - one.reached, 0.06) << "the observer's part";
+    EXPECT_LT(one.removed - one.detected, 0.07) << "the reaction's part";
   }
 }
 

@@ -23,11 +23,11 @@ TEST(DataSpec, TellsOnceWhatIsDoubtfulAboutCalibrationsOfItsCampaigns) {
   place.write("campaigns/two.yaml", campaign);
   place.write("models/both.yaml",
               "contacts: [{campaign: ../campaigns/one.yaml}, {campaign: ../campaigns/two.yaml}]\n");
-  EXPECT_THAT(read_data_spec(place / "models/both.yaml").doubts,
+  EXPECT_THAT(read_data_spec(place / "models/both.yaml").warnings,
               ::testing::ElementsAre(::testing::Field(
-                  &CalibrationDoubt::sentence,
+                  &CalibrationWarning::sentence,
                   ::testing::HasSubstr("rests on control.velocity_filter.cutoff_frequency = 60 Hz"))));
-  EXPECT_THAT(read_data_spec(test::shipped("models/bodies.yaml")).doubts, ::testing::IsEmpty());
+  EXPECT_THAT(read_data_spec(test::shipped("models/bodies.yaml")).warnings, ::testing::IsEmpty());
 }
 
 }  // namespace

@@ -10,13 +10,13 @@ namespace {
 
 using testing::HasSubstr;
 
-const PlanarRrr& bench() {
-  static const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
+const PlanarRrr& rig() {
+  static const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::none));
   return robot;
 }
 
 JointReading reading_at(const PlatformVector& pose) {
-  const JointAngles joints = bench().inverse_kinematics(pose, bench().home_working_mode()).joints;
+  const JointAngles joints = rig().inverse_kinematics(pose, rig().home_working_mode()).joints;
   return {.acquired = {},
           .valid = true,
           .passive_valid = true,
@@ -26,7 +26,7 @@ JointReading reading_at(const PlatformVector& pose) {
 
 TEST(SeenPose, IsWhereThePlatformIs) {
   const PlatformVector pose = Eigen::Vector3d(0.021, -0.034, 0.1);
-  const SeenPose seen = see_pose(bench(), reading_at(pose));
+  const SeenPose seen = see_pose(rig(), reading_at(pose));
   ASSERT_TRUE(seen.platform);
   EXPECT_LT((*seen.platform - pose).norm(), 1e-9);
   EXPECT_LT(seen.closure_error.value(), 1e-9);
@@ -37,7 +37,7 @@ TEST(SeenPose, NeedsNoPassiveAngles) {
   const PlatformVector pose = Eigen::Vector3d(0.02, 0.01, 0.0);
   JointReading joints = reading_at(pose);
   joints.passive_valid = false;
-  const SeenPose seen = see_pose(bench(), joints);
+  const SeenPose seen = see_pose(rig(), joints);
   EXPECT_LT((seen.platform.value() - pose).norm(), 1e-9);
   EXPECT_FALSE(seen.closure_error);
   EXPECT_THAT(seen.text(), Not(HasSubstr("elbows")));
@@ -46,18 +46,18 @@ TEST(SeenPose, NeedsNoPassiveAngles) {
 TEST(SeenPose, BetraysAnAngleWithTheWrongSign) {
   JointReading joints = reading_at(Eigen::Vector3d(0.02, 0.01, 0.0));
   joints.passive[1] = -joints.passive[1];
-  const SeenPose seen = see_pose(bench(), joints);
+  const SeenPose seen = see_pose(rig(), joints);
   EXPECT_GT(seen.closure_error.value(), 0.01);
   EXPECT_THAT(seen.text(), HasSubstr("check signs and zeros"));
 }
 
 TEST(SeenPose, IsUnknownWithoutAnglesAndWithAnglesThatFitNone) {
-  EXPECT_FALSE(see_pose(bench(), {}).platform);
-  EXPECT_THAT(see_pose(bench(), {}).text(), HasSubstr("no angles of the drives"));
+  EXPECT_FALSE(see_pose(rig(), {}).platform);
+  EXPECT_THAT(see_pose(rig(), {}).text(), HasSubstr("no angles of the drives"));
   JointReading joints = reading_at(Eigen::Vector3d::Zero());
   joints.active += JointVector::Constant(3, 3.14159);  // all legs point outwards
-  EXPECT_FALSE(see_pose(bench(), joints).platform);
-  EXPECT_THAT(see_pose(bench(), joints).text(), HasSubstr("fit no pose"));
+  EXPECT_FALSE(see_pose(rig(), joints).platform);
+  EXPECT_THAT(see_pose(rig(), joints).text(), HasSubstr("fit no pose"));
 }
 
 }  // namespace

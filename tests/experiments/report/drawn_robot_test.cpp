@@ -32,7 +32,7 @@ struct Case {
 void PrintTo(const Case& drawn, std::ostream* out) { *out << drawn.name; }
 
 const Case planar{"planar_3rrr",
-                  std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::none))};
+                  std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::none))};
 const Case five_bar{"five_bar", std::make_shared<FiveBar>(five_bar_robot())};
 const Case hexapod{"hexapod_6ups", std::make_shared<Hexapod>(hexapod_robot())};
 

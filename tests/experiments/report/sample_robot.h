@@ -5,7 +5,7 @@
 
 namespace flinch::sample {
 
-/// Geometry of the planar 3-RRR bench, enough to draw and to map forces to torques.
+/// Geometry of the planar 3-RRR rig, enough to draw and to map forces to torques.
 struct Leg {
   double angle;     ///< psi [rad]
   double base;      ///< Radius of the base joint [m].

@@ -23,7 +23,7 @@ using ::testing::StartsWith;
 
 /// Matches a doubt by its sentence.
 auto Tells(const ::testing::Matcher<std::string>& sentence) {
-  return ::testing::Field("sentence", &CalibrationDoubt::sentence, sentence);
+  return ::testing::Field("sentence", &CalibrationWarning::sentence, sentence);
 }
 
 class Calibrations : public ::testing::Test {
@@ -61,7 +61,7 @@ TEST_F(Calibrations, ChangeWhatIsBelievedAndNotWhatIsBuilt) {
   EXPECT_EQ(scenario.control.drive_torque.torque_constant, Eigen::Vector3d(7.0, 8.0, 9.0));
   EXPECT_EQ(scenario.robot_as_built.drives.torque_constant, Eigen::Vector3d(6.021, 6.6116, 6.7315));
   EXPECT_EQ(scenario.control.imu_mount.position_in_platform, Eigen::Vector3d(0.07, 0.001, -0.097));
-  EXPECT_THAT(scenario.doubts, IsEmpty());
+  EXPECT_THAT(scenario.warnings, IsEmpty());
 }
 
 TEST_F(Calibrations, GiveWayToWhatTheScenarioSaysItself) {
@@ -97,7 +97,7 @@ TEST_F(Calibrations, TellHowFarStampsOfTheImuErr) {
 TEST_F(Calibrations, OfARobotFileThatHasChangedAreDoubted) {
   const ParameterFile file = made();
   place.replace("robots/planar_3rrr.yaml", "mass_kg: 0.642", "mass_kg: 0.7");
-  EXPECT_THAT(read(file).doubts, ElementsAre(Tells(HasSubstr("the robot file has changed since"))));
+  EXPECT_THAT(read(file).warnings, ElementsAre(Tells(HasSubstr("the robot file has changed since"))));
 }
 
 TEST_F(Calibrations, MayBeNamedByTheRobotFileAsWell) {
@@ -110,7 +110,7 @@ TEST_F(Calibrations, MayBeNamedByTheRobotFileAsWell) {
   EXPECT_EQ(scenario.robot.drives.torque_constant, Eigen::Vector3d(7.0, 8.0, 9.0));
   EXPECT_EQ(scenario.robot_as_built.drives.torque_constant, Eigen::Vector3d(6.021, 6.6116, 6.7315));
   EXPECT_EQ(scenario.calibrations.size(), 1U);
-  EXPECT_THAT(scenario.doubts, IsEmpty()) << "to take them over is no change of the robot";
+  EXPECT_THAT(scenario.warnings, IsEmpty()) << "to take them over is no change of the robot";
 }
 
 TEST_F(Calibrations, OfTheScenarioReplaceThoseOfTheRobotFileAndThatIsSaid) {
@@ -121,7 +121,7 @@ TEST_F(Calibrations, OfTheScenarioReplaceThoseOfTheRobotFileAndThatIsSaid) {
   file.parameters[0].value = 7.5;
   const Scenario scenario = read(file);
   EXPECT_EQ(scenario.robot.drives.torque_constant, Eigen::Vector3d(7.5, 8.0, 9.0));
-  EXPECT_THAT(scenario.doubts, Contains(Tells(HasSubstr("found.yaml: replaces what"))));
+  EXPECT_THAT(scenario.warnings, Contains(Tells(HasSubstr("found.yaml: replaces what"))));
 }
 
 TEST_F(Calibrations, ThatTheRobotFileNamesAndThatAreNotThereAreToldWithTheirLine) {
@@ -135,21 +135,21 @@ TEST_F(Calibrations, ThatRestOnOtherSettingsOfAnEstimatorThatRunsAreDoubted) {
   ParameterFile file = made();
   file.settings = estimate_settings(read(file));
   ASSERT_GE(file.settings.size(), 4U);
-  EXPECT_THAT(read(file).doubts, IsEmpty());
+  EXPECT_THAT(read(file).warnings, IsEmpty());
   EXPECT_THAT(
-      read(file, "{velocity_filter: {cutoff_frequency_Hz: 60}}").doubts,
+      read(file, "{velocity_filter: {cutoff_frequency_Hz: 60}}").warnings,
       ElementsAre(Tells(HasSubstr("found.yaml: rests on control.velocity_filter.cutoff_frequency = 30 "
                                   "Hz, and 60 Hz is used; calibrate"))));
-  EXPECT_THAT(read(file, "{drive_torque: {aligned_with_velocity: false}}").doubts,
+  EXPECT_THAT(read(file, "{drive_torque: {aligned_with_velocity: false}}").warnings,
               ElementsAre(Tells(HasSubstr("aligned_with_velocity = true, and false is used"))));
   EXPECT_THAT(
-      read(file, "{momentum_observer: {gain_per_s: [20, 20, 50]}}").doubts,
+      read(file, "{momentum_observer: {gain_per_s: [20, 20, 50]}}").warnings,
       ElementsAre(Tells(HasSubstr("momentum_observer.gain = [20, 20, 20] 1/s, and [20, 20, 50] 1/s"))));
   EXPECT_THAT(
-      read(file, "{disturbance_filter: {pole_per_s: 100}, impedance: {damping_ratio: [2, 2, 2]}}").doubts,
+      read(file, "{disturbance_filter: {pole_per_s: 100}, impedance: {damping_ratio: [2, 2, 2]}}").warnings,
       IsEmpty())
       << "neither has an estimate that rests on it";
-  EXPECT_THAT(read(file, "{estimators: [disturbance_filter]}").doubts, IsEmpty()) << "it runs no more";
+  EXPECT_THAT(read(file, "{estimators: [disturbance_filter]}").warnings, IsEmpty()) << "it runs no more";
 }
 
 TEST_F(Calibrations, RestOnWhatAnEstimatorBringsThatRunsNowhereElse) {
@@ -179,7 +179,7 @@ TEST_F(Calibrations, ThatRestOnOtherTorqueConstantsAreDoubted) {
   ParameterFile file = made();
   file.kind = "dynamics";
   file.assumed = {{.name = "drives.torque_constant_Nm_per_A[1]", .value = 6.6}};
-  EXPECT_THAT(read(file).doubts,
+  EXPECT_THAT(read(file).warnings,
               ElementsAre(Tells(HasSubstr("rests on drives.torque_constant_Nm_per_A[1] = 6.6"))));
 }
 

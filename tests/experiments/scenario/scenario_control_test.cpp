@@ -190,11 +190,11 @@ TEST(TheLimits, HoldTheHomePose) {
               ElementsAre(StartsWith("own.yaml:2: control.limits: min_self_collision_distance is 0.5 m; it "
                                      "must be at most that at the home pose")));
   settings = settings_of(file);
-  const std::string of_the_bench =
+  const std::string of_the_rig =
       "control: {reaction_laws: [strict_reaction], constraints: {self_collision: {safety_m: 0.17, "
       "activation_m: 0.18}}}";
   EXPECT_THAT(
-      test::problems_of([&] { read(of_the_bench, file, settings); }),
+      test::problems_of([&] { read(of_the_rig, file, settings); }),
       ElementsAre(EndsWith("and strict_reaction keeps no less than constraints.self_collision.safety_m")));
   settings = settings_of(file);
   EXPECT_NO_THROW(read("control: {reaction_laws: [strict_reaction]}", file, settings));

@@ -9,13 +9,13 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 
 namespace flinch {
 namespace {
 
 TaskSettings read(const std::string& text,
-                  const std::shared_ptr<const ParallelRobot>& robot = test::planar_bench()) {
+                  const std::shared_ptr<const ParallelRobot>& robot = test::planar_rig()) {
   ConfigReader reader = ConfigReader::parse(text, "some.yaml");
   TaskSettings settings;
   read_tasks(reader, *robot, settings);

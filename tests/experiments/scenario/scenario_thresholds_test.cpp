@@ -31,7 +31,7 @@ const std::string with_residuals = by_estimator +
 
 /// Matches a doubt by its sentence.
 auto Tells(const ::testing::Matcher<std::string>& sentence) {
-  return ::testing::Field("sentence", &CalibrationDoubt::sentence, sentence);
+  return ::testing::Field("sentence", &CalibrationWarning::sentence, sentence);
 }
 
 class CalibratedThresholds : public ::testing::Test {
@@ -59,7 +59,7 @@ TEST_F(CalibratedThresholds, HoldForTheEstimatorsThatAFileNames) {
   EXPECT_EQ(scenario.control.fused_detector.tracking.smoothing, 300.0);
   ASSERT_EQ(scenario.control.fused_detector.residuals.size(), 1U);
   EXPECT_EQ(scenario.control.fused_detector.residuals.front().change.threshold, 7.5);
-  EXPECT_THAT(scenario.doubts, IsEmpty());
+  EXPECT_THAT(scenario.warnings, IsEmpty());
 }
 
 TEST_F(CalibratedThresholds, GiveWayToWhatTheScenarioSaysOfAnEstimator) {
@@ -78,7 +78,7 @@ TEST_F(CalibratedThresholds, OfAMomentStayWhereTheScenarioSaysOnlyTheForce) {
   const ReactionThreshold reaction = scenario.control.detector_of("momentum_observer").reaction;
   EXPECT_EQ(reaction.force, 9.0);
   EXPECT_EQ(reaction.moment, 0.5);
-  EXPECT_THAT(scenario.doubts, IsEmpty());
+  EXPECT_THAT(scenario.warnings, IsEmpty());
 }
 
 TEST_F(CalibratedThresholds, WithoutAMomentHaveThatOfTheScenario) {
@@ -86,7 +86,7 @@ TEST_F(CalibratedThresholds, WithoutAMomentHaveThatOfTheScenario) {
   const Scenario scenario =
       read("{estimators: [imu_residual], contact_detector: {reaction_moment_Nm: 0.75}}");
   EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.moment, 0.75);
-  EXPECT_THAT(scenario.doubts, IsEmpty());
+  EXPECT_THAT(scenario.warnings, IsEmpty());
 }
 
 TEST_F(CalibratedThresholds, CountBeforeThoseThatTheScenarioHasForAllEstimatorsAndThatIsSaid) {
@@ -97,7 +97,7 @@ TEST_F(CalibratedThresholds, CountBeforeThoseThatTheScenarioHasForAllEstimatorsA
       "reaction_force_N: 9}]}}");
   EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.force, 8.0);
   EXPECT_EQ(scenario.control.detector_of("disturbance_filter").reaction.force, 4.0);
-  EXPECT_THAT(scenario.doubts,
+  EXPECT_THAT(scenario.warnings,
               ElementsAre(Tells(HasSubstr("control.contact_detector.reaction_force does not count for "
                                           "imu_residual, calibrated by themselves")),
                           Tells(HasSubstr("control.contact_detector.reaction_moment does not count for "
@@ -129,7 +129,7 @@ TEST_F(CalibratedThresholds, OfTwoFilesAreThoseOfTheLastAndThatIsSaid) {
   EXPECT_EQ(scenario.control.reaction_thresholds.at("imu_residual").force, 6.0);
   EXPECT_EQ(scenario.control.reaction_thresholds.at("momentum_observer").force, 5.0);
   EXPECT_THAT(
-      scenario.doubts,
+      scenario.warnings,
       ElementsAre(Tells("later.yaml: replaces what found.yaml says of reaction_force_N of imu_residual")));
 }
 
@@ -138,7 +138,7 @@ TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceOneAnotherWhereOneHasTheForce
   write("later.yaml",
         "control: {contact_detector: {by_estimator: [{estimator: imu_residual, reaction_moment_Nm: 2}]}}\n");
   const Scenario scenario = read("{}", "[{file: found.yaml}, {file: later.yaml}]");
-  EXPECT_THAT(scenario.doubts, IsEmpty());
+  EXPECT_THAT(scenario.warnings, IsEmpty());
   EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.force, 8.0);
   EXPECT_EQ(scenario.control.detector_of("imu_residual").reaction.moment, 2.0);
 }
@@ -147,7 +147,7 @@ TEST_F(CalibratedThresholds, OfTheTrackingReplaceThoseBeforeThemAndThatIsSaid) {
   write("found.yaml", with_residuals);
   write("later.yaml", "control: {fused_detector: {smoothing_per_s: 200}}\n");
   EXPECT_THAT(
-      read("{}", "[{file: found.yaml}, {file: later.yaml}]").doubts,
+      read("{}", "[{file: found.yaml}, {file: later.yaml}]").warnings,
       ElementsAre(Tells("later.yaml: replaces what found.yaml says of fused_detector.smoothing_per_s")));
 }
 
@@ -156,14 +156,14 @@ TEST_F(CalibratedThresholds, OfTwoFilesDoNotReplaceThoseOfOtherEstimators) {
   write("later.yaml",
         "control: {contact_detector: {by_estimator: [{estimator: disturbance_filter, reaction_force_N: "
         "6}]}}\n");
-  EXPECT_THAT(read("{}", "[{file: found.yaml}, {file: later.yaml}]").doubts, IsEmpty());
+  EXPECT_THAT(read("{}", "[{file: found.yaml}, {file: later.yaml}]").warnings, IsEmpty());
 }
 
 TEST_F(CalibratedThresholds, OfFilesWithOneNameAreToldByTheirPlaceAmongThem) {
   write("found.yaml", with_residuals);
   write("anew/found.yaml", with_residuals);
   EXPECT_THAT(
-      read("{}", "[{file: found.yaml}, {file: anew/found.yaml}]").doubts,
+      read("{}", "[{file: found.yaml}, {file: anew/found.yaml}]").warnings,
       ElementsAre(Tells("found.yaml (calibration 2): replaces what found.yaml (calibration 1) says of "
                         "fused_detector.smoothing_per_s, fused_detector.residuals, "
                         "reaction_force_N of momentum_observer and 2 more")));

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "systems/framework/diagram_builder.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -31,7 +31,7 @@ struct Teller {
   const ContactClassification& told() const { return ticking.get(block.classification); }
   const ContactLocation& place() const { return ticking.get(block.location); }
 
-  std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::planar_rig();
   DiagramBuilder builder{"test", 1ms};
   ContactTeller& block;
   InputPort<ContactTruth> contact = builder.export_input("contact", block.contact);

@@ -118,13 +118,14 @@ TEST(FastImu, IsBelievedWhileItIsHonestAndNamedWhenItRepeatsItself) {
   const Recording frozen = run_experiment(
       scenario_at("square_realistic", 2ms,
                   with_fast_imu({"duration_s=2", "faults=[{signal: imu, kind: stuck, time_s: 1}]"})));
-  const auto doubts = frozen.column("plausibility", "imu_doubt");
-  const auto first = std::find_if(doubts.begin(), doubts.end(), [](double doubt) { return doubt != 0.0; });
-  ASSERT_NE(first, doubts.end());
-  const auto tick = static_cast<std::size_t>(first - doubts.begin());
+  const auto warnings = frozen.column("plausibility", "imu_doubt");
+  const auto first =
+      std::find_if(warnings.begin(), warnings.end(), [](double doubt) { return doubt != 0.0; });
+  ASSERT_NE(first, warnings.end());
+  const auto tick = static_cast<std::size_t>(first - warnings.begin());
   EXPECT_GE(frozen.time_ns[tick], 1'000'000'000);
   EXPECT_LE(frozen.time_ns[tick], 1'020'000'000);
-  EXPECT_EQ(*first, static_cast<double>(ImuDoubt::frozen));
+  EXPECT_EQ(*first, static_cast<double>(ImuFault::frozen));
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST_P(EstimatorOnRobot, IsReplayedBitForBit) {
   EXPECT_THAT(replay(simulated, recorded).differing, testing::IsEmpty());
 }
 
-// ---------------------------------------------------------------- on the bench
+// ---------------------------------------------------------------- on the rig
 
 class Estimator : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Of, Estimator, ValuesIn(names()), [](const auto& tested) { return tested.param; });

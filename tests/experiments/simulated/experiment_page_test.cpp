@@ -44,8 +44,8 @@ TEST(ExperimentPage, TellsWhereObstaclesAreThatMove) {
   };
   EXPECT_EQ(columns().count("obstacle_1_x"), 0U) << "a fixed one";
 
-  scenario.station.bench.obstacles[0] = std::make_shared<const MovingObstacle>(
-      scenario.station.bench.obstacles[0]->form(),
+  scenario.station.rig.obstacles[0] = std::make_shared<const MovingObstacle>(
+      scenario.station.rig.obstacles[0]->form(),
       ObstaclePath({{.time = 0.2}, {.time = 0.4, .displacement = {-0.05, 0.02, 0.0}}}));
   const auto moving = columns();
   EXPECT_NEAR(moving.at("obstacle_1_x").at(100), 0.0, 1e-12);

@@ -15,20 +15,20 @@ TEST(HexapodContacts, AreNoneInAFreeMotion) {
   EXPECT_GT(verdict.simulated, 1.0);
 }
 
-TEST(HexapodContacts, AreNoticedAndRemoved) {
+TEST(HexapodContacts, AreDetectedAndRemoved) {
   const SimulatedScenario trial = test::hexapod_trial(1);
-  std::vector<double> noticed;
+  std::vector<double> detected;
   for (const test::PlatformContact& contact : test::draw_contacts(trial, 4, 1)) {
     const test::ContactOutcome got =
         test::outcome_of(test::with_contact(trial, contact, test::Stiffness::hand));
     EXPECT_TRUE(got.is_platform_alone);
     EXPECT_EQ(got.verdict.fault, "");
     EXPECT_EQ(got.verdict.false_detections, 0);
-    EXPECT_GE(got.noticed, got.noticed_at_best);
+    EXPECT_GE(got.detected, got.detected_at_best);
     EXPECT_LE(got.removed, 100.0);
-    noticed.push_back(got.noticed);
+    detected.push_back(got.detected);
   }
-  EXPECT_LE(test::median(noticed), 13.0);
+  EXPECT_LE(test::median(detected), 13.0);
 }
 
 }  // namespace

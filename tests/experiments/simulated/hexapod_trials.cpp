@@ -64,7 +64,7 @@ bool meets_platform_first(const Mechanism& robot, const Eigen::Vector3d& directi
 }
 
 /// When an observer with the same gain that is told the true wrench would notice the contact [s].
-double noticed_at_best(const SimulatedScenario& trial, const Recording& recording, double onset) {
+double detected_at_best(const SimulatedScenario& trial, const Recording& recording, double onset) {
   const PlatformVector gain = trial.control.momentum_observer.gain;
   const ReactionThreshold& reaction = trial.control.contact_detector.reaction;
   const WrenchThreshold limit{reaction.force.largest(), reaction.moment.largest()};
@@ -110,7 +110,7 @@ SimulatedScenario with_free_motion(SimulatedScenario trial, std::uint64_t seed) 
   trial.control.trajectory.path = PlatformPath::through(robot, poses, limits);
   trial.control.trajectory.start = 300ms;
   trial.duration = 300ms + from_seconds(trial.control.trajectory.path->duration() + 0.1);
-  trial.station.bench.initial_pose = trial.control.trajectory.path->start();
+  trial.station.rig.initial_pose = trial.control.trajectory.path->start();
   return trial;
 }
 
@@ -119,9 +119,9 @@ SimulatedScenario with_uneven_drives(SimulatedScenario trial, KnownFriction know
   RobotDeviation deviation;
   deviation.drive_friction_scale.setZero(trial.robot.robot->drives());
   for (double& scale : deviation.drive_friction_scale) scale = random.uniform(0.8, 1.2);
-  trial.station.bench.robot = true_robot(trial.robot.robot, deviation);
+  trial.station.rig.robot = true_robot(trial.robot.robot, deviation);
   if (known == KnownFriction::of_each_drive) {
-    trial.robot.robot = std::dynamic_pointer_cast<const ParallelRobot>(trial.station.bench.robot);
+    trial.robot.robot = std::dynamic_pointer_cast<const ParallelRobot>(trial.station.rig.robot);
   }
   return trial;
 }
@@ -168,7 +168,7 @@ SimulatedScenario with_contact(SimulatedScenario trial, const PlatformContact& c
   if (contact.ball_moves) {
     ball.position_in_base += 0.5 * ball_way * contact.direction;
     const double half = 0.5 * 1.875 * ball_way / contact.speed;  // paths are fastest in the middle
-    trial.station.bench.obstacles = {std::make_shared<const MovingObstacle>(
+    trial.station.rig.obstacles = {std::make_shared<const MovingObstacle>(
         ball, ObstaclePath({{.time = meeting_time - half},
                             {.time = meeting_time + half, .displacement = -ball_way * contact.direction}}))};
     return trial;
@@ -181,22 +181,22 @@ SimulatedScenario with_contact(SimulatedScenario trial, const PlatformContact& c
                                 .jerk = 1000.0};
   trial.control.trajectory.path = passage(robot, through).path;
   trial.control.trajectory.start = 300ms;
-  trial.station.bench.initial_pose = trial.control.trajectory.path->start();
-  trial.station.bench.obstacles = {std::make_shared<const FixedObstacle>(ball)};
+  trial.station.rig.initial_pose = trial.control.trajectory.path->start();
+  trial.station.rig.obstacles = {std::make_shared<const FixedObstacle>(ball)};
   return trial;
 }
 
 ContactOutcome outcome_of(const SimulatedScenario& trial) {
   const Recording recording = run_experiment(trial);
   ContactOutcome outcome{
-      .noticed = never,
-      .noticed_at_best = never,
+      .detected = never,
+      .detected_at_best = never,
       .removed = never,
       .verdict = judge(recording, trial.robot.robot->space(), trial.expected, trial.force_limits)};
   if (outcome.verdict.contacts.empty()) return outcome;
   const ContactVerdict& first = outcome.verdict.contacts.front();
-  outcome.noticed = 1e3 * (first.detected.value_or(never) - first.onset);
-  outcome.noticed_at_best = 1e3 * noticed_at_best(trial, recording, first.onset);
+  outcome.detected = 1e3 * (first.detected.value_or(never) - first.onset);
+  outcome.detected_at_best = 1e3 * detected_at_best(trial, recording, first.onset);
   outcome.removed = 1e3 * (first.removed.value_or(never) - first.onset);
   outcome.peak_force = first.peak_force;
   outcome.is_platform_alone = first.body == "platform";

@@ -52,8 +52,8 @@ SimulatedScenario with_contact(SimulatedScenario trial, const PlatformContact& c
 
 /// What a contact led to. Times since its onset [ms]; infinite: never.
 struct ContactOutcome {
-  double noticed = 0.0;
-  double noticed_at_best = 0.0;  ///< by the same gain and thresholds, from the true wrench
+  double detected = 0.0;
+  double detected_at_best = 0.0;  ///< by the same gain and thresholds, from the true wrench
   double removed = 0.0;
   double peak_force = 0.0;  ///< [N]
   bool is_platform_alone = false;

@@ -27,7 +27,7 @@ TEST(AnHonestImu, IsBelievedInEveryScenario) {
     SimulatedScenario scenario = read_simulated_scenario(entry.path());
     scenario.duration = std::min<Time>(scenario.duration, 6s);
     const Verdict verdict = judge_experiment(scenario);
-    EXPECT_EQ(verdict.imu_doubt, ImuDoubt::none)
+    EXPECT_EQ(verdict.imu_doubt, ImuFault::none)
         << entry.path() << " from " << verdict.imu_doubted << " s on";
   }
 }
@@ -37,7 +37,7 @@ TEST(AnHonestImu, IsBelievedOnALightRobotWhoseDrivesStep) {
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U}) {
     const Verdict verdict = judge_experiment(
         read_simulated_scenario(FLINCH_SOURCE_DIR "/apps/scenarios/five_bar_collision.yaml", seed));
-    EXPECT_EQ(verdict.imu_doubt, ImuDoubt::none) << "seed " << seed;
+    EXPECT_EQ(verdict.imu_doubt, ImuFault::none) << "seed " << seed;
   }
 }
 

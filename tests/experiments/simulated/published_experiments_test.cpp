@@ -154,7 +154,7 @@ SimulatedScenario push_against(double stiffness, Friction friction) {
   if (friction == Friction::none) {
     const auto robot = without_friction(*scenario.robot.robot);
     scenario.robot.robot = robot;
-    scenario.station.bench.robot = robot;
+    scenario.station.rig.robot = robot;
   }
   return scenario;
 }

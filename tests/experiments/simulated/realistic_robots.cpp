@@ -107,7 +107,7 @@ SimulatedScenario scenario_of(const RobotTrial& trial, std::uint64_t seed, bool 
   if (!reacts) scenario.control.contact_detector = {.reaction = {1e6, 1e6}, .hard = {1e6, 1e6}};
   if (trial.motion != FreeMotion::square) {
     scenario.control.trajectory.path = random_motion(scenario.robot, trial.motion, seed);
-    scenario.station.bench.initial_pose = scenario.control.trajectory.path->start();
+    scenario.station.rig.initial_pose = scenario.control.trajectory.path->start();
     const double end = to_seconds(scenario.control.trajectory.start.value_or(Time::zero())) +
                        scenario.control.trajectory.path->duration();
     scenario.duration = std::chrono::milliseconds(static_cast<int>(1e3 * end) + 200);

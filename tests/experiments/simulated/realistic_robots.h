@@ -8,7 +8,7 @@
 
 namespace flinch::test {
 
-/// Contact-free motion of the planar bench at 1.5 m/s, 12 m/s^2 and 600 m/s^3.
+/// Contact-free motion of the planar rig at 1.5 m/s, 12 m/s^2 and 600 m/s^3.
 enum class FreeMotion {
   square,          ///< of 300 mm, two laps: square_realistic.yaml
   point_to_point,  ///< between random poses in the workspace, for about six seconds

@@ -64,7 +64,7 @@ TEST(ScenarioRealism, CanBeSetSizeBySize) {
       "realism: {friction: 0.3, current_lag_ms: 0.5, cogging: 0.01, cogging_periods: 12, payload_g: 300}");
   EXPECT_THAT(keys_of(scenario), ElementsAre("drive_friction_scale", "passive_friction_scale", "payload_kg",
                                              "cogging_Nm", "cogging_phase_rad", "current_lag_s"));
-  EXPECT_EQ(scenario.station.bench.torque_ripple[0].cogging[0].rate, 12.0);
+  EXPECT_EQ(scenario.station.rig.torque_ripple[0].cogging[0].rate, 12.0);
   EXPECT_EQ(scenario.station.drives.current_lag, scenario.perturbed_robot.current_lag);
 }
 
@@ -80,11 +80,11 @@ TEST(ScenarioRealism, IsThatOfTheRunUnlessTheRobotHasASeedOfItsOwn) {
 
 TEST(ScenarioRealism, CanBeLikeTheBenchButForWhatItSays) {
   const test::Workplace place;
-  const SimulatedScenario bench = scenario_with(place, "realism: bench");
+  const SimulatedScenario rig = scenario_with(place, "realism: bench");
   const SimulatedScenario other = scenario_with(place, "realism: {like: bench, torque_constant: 0}");
-  EXPECT_EQ(other.perturbed_robot.mechanics.payload, bench.perturbed_robot.mechanics.payload);
+  EXPECT_EQ(other.perturbed_robot.mechanics.payload, rig.perturbed_robot.mechanics.payload);
   EXPECT_EQ(other.perturbed_robot.torque_constant_scale.size(), 0);
-  EXPECT_EQ(bench.perturbed_robot.torque_constant_scale.size(), 3);
+  EXPECT_EQ(rig.perturbed_robot.torque_constant_scale.size(), 3);
 }
 
 TEST(ScenarioRealism, ComesOnTopOfWhatThePlantSays) {
@@ -92,7 +92,7 @@ TEST(ScenarioRealism, ComesOnTopOfWhatThePlantSays) {
   const SimulatedScenario scenario = scenario_with(
       place,
       "drive_friction_scale: [2, 1, 1], passive_friction_scale: [1, 0, 1], payload_kg: 0.5, realism: bench");
-  const auto& truth = dynamic_cast<const PlanarRrr&>(*scenario.station.bench.robot).parameters();
+  const auto& truth = dynamic_cast<const PlanarRrr&>(*scenario.station.rig.robot).parameters();
   const auto& model = dynamic_cast<const PlanarRrr&>(*scenario.robot.robot).parameters();
   const RobotDeviation& drawn = scenario.perturbed_robot.mechanics;
   EXPECT_DOUBLE_EQ(truth.legs[0].active_friction.coulomb,
@@ -112,7 +112,7 @@ TEST(ScenarioRealism, LetsMotorsCogAsTheRobotFileSays) {
   for (const char* const plant : {"friction: as_robot_file", "realism: bench"}) {
     const SimulatedScenario scenario = scenario_with(place, plant);
     const Cogging& known = scenario.control.drive_torque.cogging;
-    const std::vector<TorqueRipple>& motors = scenario.station.bench.torque_ripple;
+    const std::vector<TorqueRipple>& motors = scenario.station.rig.torque_ripple;
     ASSERT_EQ(known.waves.size(), 2U);
     ASSERT_EQ(motors.size(), 3U);
     for (const double q : {-0.7, 0.0, 0.3}) {
@@ -153,7 +153,7 @@ TEST(ScenarioRealism, PutsSpringsBetweenMotorsAndLegs) {
   const SimulatedScenario scenario = scenario_with(
       place, "realism: {drive_stiffness_Nm_per_rad: 60000, backlash_deg: 0.05, rotor_inertia_kg_m2: 0.1}");
   EXPECT_THAT(keys_of(scenario), ElementsAre("drive_stiffness_Nm_per_rad", "backlash_rad"));
-  EXPECT_EQ(scenario.station.bench.elastic.rotor_inertia, JointVector::Constant(3, 0.1));
+  EXPECT_EQ(scenario.station.rig.elastic.rotor_inertia, JointVector::Constant(3, 0.1));
   EXPECT_THAT(keys_of(scenario_with(place, "realism: {drive_stiffness_N_per_m: 1e7}", "hexapod_6ups")),
               ElementsAre("drive_stiffness_N_per_m"));
   EXPECT_THAT(problems_with("realism: {backlash_deg: 0.05}"),

@@ -51,7 +51,7 @@ TEST(ScenarioObstacles, AreOfTheKindThatTheyName) {
       "x_m: 0.1}]}\n"
       "  - {name: hand, x_m: 0.7, y_m: -0.7, kind: hand, path: [{time_s: 1}], grip: {begin_s: 1, end_s: "
       "2}}\n");
-  const Obstacles& obstacles = scenario.station.bench.obstacles;
+  const Obstacles& obstacles = scenario.station.rig.obstacles;
   ASSERT_EQ(obstacles.size(), 4U);
   EXPECT_EQ(obstacles[0]->form().name, "obstacle 1");
   EXPECT_EQ(std::get<Sphere>(obstacles[0]->form().shape).radius, 0.04);
@@ -91,7 +91,7 @@ const std::string standing_on_its_edge = "x_m: 0.5, y_m: 0, rotation_deg: [0, 0,
 /// Of the platform at home from the obstacle.
 double gap_to_platform(const SimulatedScenario& scenario) {
   const ParallelRobot& robot = *scenario.robot.robot;
-  const ObstacleForm& form = scenario.station.bench.obstacles.front()->form();
+  const ObstacleForm& form = scenario.station.rig.obstacles.front()->form();
   Placement home;
   home.origin.head<2>() = robot.home_pose().head<2>();
   return nearest(Solid(robot.body(BodyId::platform()).shapes.front()), home, Solid(form.shape),

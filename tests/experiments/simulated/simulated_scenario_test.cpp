@@ -31,7 +31,7 @@ SimulatedScenario scenario_of(const test::Workplace& place, const std::string& t
 }
 
 const PlanarRrrParameters& true_parameters(const SimulatedScenario& scenario) {
-  return dynamic_cast<const PlanarRrr&>(*scenario.station.bench.robot).parameters();
+  return dynamic_cast<const PlanarRrr&>(*scenario.station.rig.robot).parameters();
 }
 
 const PlanarRrrParameters& believed(const SimulatedScenario& scenario) {
@@ -71,15 +71,15 @@ TEST(ShippedScenarios, AreAllGood) {
 TEST(SimulatedScenario, HasNothingThatTouchesTheRobotUnlessItSaysSo) {
   const test::Workplace place;
   const SimulatedScenario scenario = scenario_of(place, least);
-  EXPECT_TRUE(scenario.station.bench.obstacles.empty());
+  EXPECT_TRUE(scenario.station.rig.obstacles.empty());
   EXPECT_TRUE(scenario.station.applied_wrench.empty());
   EXPECT_EQ(run_experiment(scenario).samples(), 250U);
 }
 
 TEST(SimulatedScenario, PutsThePylonWhereTheScenarioSays) {
   const SimulatedScenario scenario = read_simulated_scenario(shipped("scenarios/platform_collision.yaml"));
-  ASSERT_EQ(scenario.station.bench.obstacles.size(), 1U);
-  const ObstacleForm& pylon = scenario.station.bench.obstacles[0]->form();
+  ASSERT_EQ(scenario.station.rig.obstacles.size(), 1U);
+  const ObstacleForm& pylon = scenario.station.rig.obstacles[0]->form();
   EXPECT_EQ(pylon.position_in_base, Eigen::Vector3d(-0.24, -0.02, 0.0));
   EXPECT_NEAR(std::get<Sphere>(pylon.shape).radius, 0.04, 1e-15);
 }
@@ -171,7 +171,7 @@ TEST(SimulatedScenario, StartsWhereItsMotionStarts) {
   for (const std::string& name : test::shipped_scenarios()) {
     const SimulatedScenario scenario = read_simulated_scenario(shipped("scenarios/" + name + ".yaml"));
     const auto& path = scenario.control.trajectory.path;
-    const auto& start = scenario.station.bench.initial_pose;
+    const auto& start = scenario.station.rig.initial_pose;
     ASSERT_EQ(start.has_value(), path.has_value()) << name;
     if (path) {
       EXPECT_EQ(*start, path->start()) << name;
@@ -232,7 +232,7 @@ TEST(SimulatedScenario, ComesBackOutOfItsRecording) {
   EXPECT_EQ(again.text, scenario.text);
   EXPECT_EQ(again.robot_text, scenario.robot_text);
   EXPECT_EQ(again.expected.contact, scenario.expected.contact);
-  EXPECT_EQ(again.station.bench.initial_pose, scenario.station.bench.initial_pose);
+  EXPECT_EQ(again.station.rig.initial_pose, scenario.station.rig.initial_pose);
 }
 
 }  // namespace

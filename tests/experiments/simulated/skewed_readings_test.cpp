@@ -70,7 +70,7 @@ double largest_error(const std::string& file, std::uint64_t seed) {
   const SimulatedScenario scenario = read_simulated_scenario(file, seed);
   const Verdict verdict = judge(run_experiment(scenario), scenario.robot.robot->space(), scenario.expected,
                                 scenario.force_limits);
-  EXPECT_EQ(verdict.imu_doubt, ImuDoubt::none) << seed;
+  EXPECT_EQ(verdict.imu_doubt, ImuFault::none) << seed;
   return verdict.max_observer_error_force;
 }
 

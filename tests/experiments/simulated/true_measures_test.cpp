@@ -6,7 +6,7 @@
 
 #include "systems/framework/diagram_builder.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -20,7 +20,7 @@ struct Meter {
   const WorkspaceMeasures& measured() const { return ticking.get(block.measures); }
 
   DiagramBuilder builder{"test", 1ms};
-  TrueMeasures& block = builder.add<TrueMeasures>("true_measures", test::planar_bench());
+  TrueMeasures& block = builder.add<TrueMeasures>("true_measures", test::planar_rig());
   InputPort<PlatformMotion> platform = builder.export_input("platform", block.platform);
   test::Ticking ticking{builder};
 };
@@ -31,7 +31,7 @@ TEST(TrueMeasures, AreThoseOfTheTruePose) {
   meter.see(Eigen::Vector3d(0.05, 0.02, 0.1));
   EXPECT_TRUE(meter.measured().valid);
   Kinematics now;
-  test::planar_bench()->kinematics(Eigen::Vector3d(0.05, 0.02, 0.1), PlatformVector::Zero(3), now);
+  test::planar_rig()->kinematics(Eigen::Vector3d(0.05, 0.02, 0.1), PlatformVector::Zero(3), now);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(now.J_x_qa));
   EXPECT_NEAR(meter.measured().sigma_kappa, svd.singularValues()[0] / svd.singularValues()[2], 1e-9);
   EXPECT_NEAR(meter.measured().sigma_sc, std::sqrt(3.0) * 0.107, 1e-9);

@@ -40,10 +40,10 @@ TEST(WorkspaceGrid, HasThePlacesOfASquareGridThatAreWithinTheLimits) {
   }
 }
 
-/// The bench keeps within 0.35 m of the middle, and its other limits take off no whole side of that.
-TEST(WorkspaceGrid, FillsTheWorkspaceOfTheBench) {
-  const RobotFile bench = shipped_robot("planar_3rrr");
-  const auto places = workspace_grid(*bench.robot, bench.limits, bench.robot->home_pose(), 21);
+/// The rig keeps within 0.35 m of the middle, and its other limits take off no whole side of that.
+TEST(WorkspaceGrid, FillsTheWorkspaceOfTheRig) {
+  const RobotFile rig = shipped_robot("planar_3rrr");
+  const auto places = workspace_grid(*rig.robot, rig.limits, rig.robot->home_pose(), 21);
   double area = 0.0, furthest = 0.0, spacing = 0.0;
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
     if (places[i].y() == places[i + 1].y()) spacing = places[i + 1].x() - places[i].x();
@@ -60,16 +60,16 @@ TEST(WorkspaceGrid, FillsTheWorkspaceOfTheBench) {
     seed = seed * 6364136223846793005U + 1442695040888963407U;
     return static_cast<double>(seed >> 11U) * 0x1p-53 - 0.5;
   };
-  for (int i = 0; i < tried; ++i) inside += is_allowed(bench, {0.8 * next(), 0.8 * next()}) ? 1 : 0;
+  for (int i = 0; i < tried; ++i) inside += is_allowed(rig, {0.8 * next(), 0.8 * next()}) ? 1 : 0;
   const double expected = 0.64 * static_cast<double>(inside) / tried;
   EXPECT_NEAR(area, expected, 0.06 * expected);
 }
 
 TEST(WorkspaceGrid, RefusesAPoseOutsideOfTheLimits) {
-  const RobotFile bench = shipped_robot("planar_3rrr");
-  Configuration pose = bench.robot->home_pose();
+  const RobotFile rig = shipped_robot("planar_3rrr");
+  Configuration pose = rig.robot->home_pose();
   pose[0] = 0.5;
-  const auto problems = test::problems_of([&] { workspace_grid(*bench.robot, bench.limits, pose, 5); });
+  const auto problems = test::problems_of([&] { workspace_grid(*rig.robot, rig.limits, pose, 5); });
   ASSERT_EQ(problems.size(), 1U);
   EXPECT_NE(problems.front().find("--at"), std::string::npos);
 }

@@ -11,7 +11,7 @@ namespace flinch {
 namespace {
 
 TEST(NamesOfTouched, AreThoseOfBodiesAndGaps) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::none));
   const std::vector<std::string> names = names_of_touched(robot);
   ASSERT_EQ(names.size(), 10U);
   EXPECT_EQ(names.front(), "platform");

@@ -177,7 +177,7 @@ TEST(AReturn, IsToldInTableAndJson) {
 
 TEST(VerdictJson, TellsSinceWhenTheImuWasLeftOut) {
   Verdict verdict;
-  verdict.imu_doubt = ImuDoubt::frozen;
+  verdict.imu_doubt = ImuFault::frozen;
   verdict.imu_doubted = 0.5;
   const auto json = nlohmann::json::parse(verdict_json(verdict, {}));
   EXPECT_EQ(json["imu_doubt"]["kind"], "frozen");

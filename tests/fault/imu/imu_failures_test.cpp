@@ -1,4 +1,4 @@
-// What a robot of the bench makes of an inertial measurement unit that fails: a slice of the campaign.
+// What a robot of the rig makes of an inertial measurement unit that fails: a slice of the campaign.
 #include <gtest/gtest.h>
 
 #include "tests/fault/imu/imu_trial.h"
@@ -27,7 +27,7 @@ TEST(ImuFailures, OfThreeKindsAreNamedInMotionAndBeforeAContact) {
 
 TEST(ImuStamps, ThatErrByHalfAMillisecondMakeNoHonestUnitDoubted) {
   for (std::size_t number = 0; number < 6; ++number)
-    EXPECT_STREQ(name(doubt_of_honest_unit(number, 1ms)), name(ImuDoubt::none)) << number;
+    EXPECT_STREQ(name(doubt_of_honest_unit(number, 1ms)), name(ImuFault::none)) << number;
 }
 
 TEST(ImuStamps, ThatErrHideNoFailure) {

@@ -28,7 +28,7 @@ struct ImuRun {
   std::vector<Eigen::Vector3d> force;  // of the unit
   std::vector<Eigen::Vector3d> truth;  // what it should say of the tick, without noise and bias
   std::optional<std::size_t> touched, stopped, named;
-  ImuDoubt doubt = ImuDoubt::none;
+  ImuFault doubt = ImuFault::none;
   std::map<std::string, std::size_t> detected;
 };
 
@@ -56,7 +56,7 @@ ImuRun run(SimulatedScenario scenario, const std::vector<std::string>& faults, T
                        ImuMount().position_in_platform, robot.gravity()));
     result.force.push_back(context.get(station.imu).specific_force);
     const Plausibility& found = context.get(control.plausibility);
-    if (!result.named && found.imu_doubt != ImuDoubt::none) {
+    if (!result.named && found.imu_doubt != ImuFault::none) {
       result.named = tick;
       result.doubt = found.imu_doubt;
     }
@@ -116,7 +116,7 @@ std::vector<std::string> faults_of(const std::string& kind, double at, RandomGen
 std::optional<std::size_t> first_wrong(const ImuFailure& failure, const ImuRun& honest, std::size_t begin) {
   for (std::size_t k = begin; k < honest.force.size(); ++k) {
     const bool shows =
-        failure.right != ImuDoubt::saturated || honest.force[k].lpNorm<Eigen::Infinity>() > 10.5;
+        failure.right != ImuFault::saturated || honest.force[k].lpNorm<Eigen::Infinity>() > 10.5;
     if (honest.speed[k] > 0.3 && shows) return k;
   }
   return std::nullopt;
@@ -153,17 +153,17 @@ ImuOutcome outcome_of(const ImuRun& failed, std::size_t begin, const std::vector
 }  // namespace
 
 std::vector<ImuFailure> imu_failures() {
-  return {{"dropped out", ImuDoubt::dropped_out},
-          {"frozen", ImuDoubt::frozen},
-          {"saturated", ImuDoubt::saturated},
-          {"2 ms late", ImuDoubt::late},
-          {"accelerometer off", ImuDoubt::biased},
-          {"gyroscope off", ImuDoubt::biased},
-          {"turned", ImuDoubt::turned},
-          {"tenfold noise", ImuDoubt::noisy}};
+  return {{"dropped out", ImuFault::dropped_out},
+          {"frozen", ImuFault::frozen},
+          {"saturated", ImuFault::saturated},
+          {"2 ms late", ImuFault::late},
+          {"accelerometer off", ImuFault::biased},
+          {"gyroscope off", ImuFault::biased},
+          {"turned", ImuFault::turned},
+          {"tenfold noise", ImuFault::noisy}};
 }
 
-ImuDoubt doubt_of_honest_unit(std::size_t number, Time stamps) {
+ImuFault doubt_of_honest_unit(std::size_t number, Time stamps) {
   return run(with_stamps(draw_run(free_motion(), number).scenario, stamps), {}, 2500ms).doubt;
 }
 
@@ -180,7 +180,7 @@ ImuOutcome fail_in_motion(const ImuFailure& failure, std::size_t number, Time st
                honest.named.value_or(0), honest.stopped.value_or(0));
   const ImuRun failed = run(scenario, faults, Time(1ms) * static_cast<Time::rep>(*begin) + watched);
   ImuOutcome outcome = outcome_of(failed, *begin, faults);
-  const auto shown = failure.right == ImuDoubt::late ? first_shown(honest, *begin) : std::nullopt;
+  const auto shown = failure.right == ImuFault::late ? first_shown(honest, *begin) : std::nullopt;
   if (shown) outcome.shown = Time(1ms) * static_cast<Time::rep>(*shown - *begin);
   return outcome;
 }

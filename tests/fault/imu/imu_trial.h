@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "systems/framework/time.h"
-#include "systems/signals/imu_doubt.h"
+#include "systems/signals/imu_fault.h"
 
 /// Inertial measurement units that fail while a realistic robot moves, and what becomes of it.
 namespace flinch::test {
@@ -15,7 +15,7 @@ namespace flinch::test {
 /// What happens to the unit: "late", "biased" and so on.
 struct ImuFailure {
   std::string kind;
-  ImuDoubt right;  ///< what it should be called
+  ImuFault right;  ///< what it should be called
 };
 std::vector<ImuFailure> imu_failures();
 
@@ -23,7 +23,7 @@ struct ImuOutcome {
   bool stopped = false;         ///< the gate closed for a fault
   std::optional<Time> named{};  ///< from the first wrong sample
   std::optional<Time> shown{};  ///< from there to the first that errs by more than 0.3 m/s^2, if it is late
-  ImuDoubt doubt = ImuDoubt::none;
+  ImuFault doubt = ImuFault::none;
   std::vector<std::string> false_contacts{};  ///< detectors that detected one before there was any
   std::vector<std::string> missed{};  ///< that did not within 100 ms of a contact, but do without the failure
   int contacts = 0;                   ///< detectors that notice it without the failure
@@ -42,7 +42,7 @@ std::vector<ImuOutcome> try_failures(const ImuFailure& failure, std::size_t coun
                                      Time stamps = {});
 
 /// What an honest unit is called in random motion of 2.5 s; none: nothing.
-ImuDoubt doubt_of_honest_unit(std::size_t number, Time stamps);
+ImuFault doubt_of_honest_unit(std::size_t number, Time stamps);
 
 /// Of `outcomes` in motion, those that were not named within 20 ms of the first sample that errs by more
 /// than 0.3 m/s^2, 1 N of the platform's mass.

@@ -56,7 +56,7 @@ std::string Margins::table() const {
 
 Margins margins_of(SimulatedScenario scenario, const MountedSensors& sensors) {
   scenario.station.encoders.passive_mounted = sensors.passive_encoders;
-  scenario.control.forward_kinematics.initial_pose = scenario.station.bench.initial_pose;
+  scenario.control.forward_kinematics.initial_pose = scenario.station.rig.initial_pose;
   if (!sensors.imu) scenario.station.faults.push_back({.signal = FaultSignal::imu, .kind = FaultKind::off});
   ScenarioLoop loop(scenario);
   const SimulatedStation& station = loop.station;

@@ -32,7 +32,7 @@ void add(std::vector<LieCase>& cases, const LieScene& scene, const std::vector<s
   }
 }
 
-/// "wrong:0.001" with its size times `scale`; that of the bench as it is written.
+/// "wrong:0.001" with its size times `scale`; that of the rig as it is written.
 std::string sized(const std::string& kind, double scale) {
   const std::size_t at = kind.find(':');
   if (scale == 1.0 || at == std::string::npos) return kind;
@@ -146,7 +146,7 @@ std::vector<LieCase> all_lies_of(const std::string& robot) {
 
 std::vector<LieCase> pairs_of_lies(std::size_t count, std::uint64_t seed, const std::string& robot) {
   const LieStage& stage = lie_stage(robot);
-  const bool is_bench = robot == "planar_3rrr";
+  const bool is_rig = robot == "planar_3rrr";
   RandomGenerator random(seed);
   const auto pick = [&random](std::size_t below) {
     return std::min(below - 1, static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(below))));
@@ -163,7 +163,7 @@ std::vector<LieCase> pairs_of_lies(std::size_t count, std::uint64_t seed, const 
     const LieMoment moment = static_cast<LieMoment>(pick(4));
     const bool meets = moment == LieMoment::contact || moment == LieMoment::reaction;
     LieScene scene{.robot = robot,
-                   .speed = random.uniform(meets ? 0.3 : 0.05, is_bench ? 1.2 : 0.5),
+                   .speed = random.uniform(meets ? 0.3 : 0.05, is_rig ? 1.2 : 0.5),
                    .direction_deg = stage.contact_deg,
                    .seed = static_cast<unsigned>(cases.size() + 1),
                    .passive_encoders = pick(4) > 0,

@@ -14,7 +14,7 @@ struct LieCase {
 };
 
 /// The lies that are tried of each drive, and of all sensors of a kind together; as large for a robot as its
-/// drives are fast and strong, of the bench unless another one is named.
+/// drives are fast and strong, of the rig unless another one is named.
 std::vector<std::string> lies_of_a_drive(int number, const std::string& robot = "planar_3rrr");
 std::vector<std::string> lies_of_all(const std::string& robot = "planar_3rrr");
 
@@ -22,7 +22,7 @@ std::vector<std::string> lies_of_all(const std::string& robot = "planar_3rrr");
 /// thousand.
 std::vector<LieCase> all_lies();
 
-/// The same of the robots that are no bench, at the speeds that they reach.
+/// The same of the robots that are no rig, at the speeds that they reach.
 std::vector<LieCase> all_lies_of(const std::string& robot);
 
 /// Two lies at once, `count` times: of all sorts, in motion, at rest, before a motion, in a stop, in a

@@ -11,7 +11,7 @@
 namespace flinch::test {
 namespace {
 
-std::string left_of_the_bench(double earlier) {
+std::string left_of_the_rig(double earlier) {
   return fmt::format("pylon: {{x_mm: {}, y_mm: -20, radius_mm: 40, stiffness_N_per_m: 6000}}\n",
                      -175.0 + earlier);
 }
@@ -39,7 +39,7 @@ constexpr const char* control_of_hexapod =
     "hard_moment_Nm: 500}\n";
 
 LieStage stage_of(const std::string& robot) {
-  if (robot == "planar_3rrr") return {{}, {}, 20.0, 2000.0, 0.05, 180.0, left_of_the_bench, {}};
+  if (robot == "planar_3rrr") return {{}, {}, 20.0, 2000.0, 0.05, 180.0, left_of_the_rig, {}};
   if (robot == "five_bar") return {{}, {}, 12.0, 600.0, 0.02, 90.0, beyond_the_tool_point, {}};
   if (robot == "hexapod_6ups")
     return {{}, {}, 8.0, 400.0, 0.03, 0.0, beside_the_platform, control_of_hexapod};
@@ -55,10 +55,10 @@ LieStage make_lie_stage(const std::string& robot) {
   stage.robot = read_robot_file(stage.file);
   if (robot == "planar_3rrr") return stage;
   const DriveParameters& drives = stage.robot.drives;
-  const DriveParameters bench = read_robot_file(file("planar_3rrr")).drives;
-  stage.angle = drives.max_speed / bench.max_speed;
-  stage.torque = drives.max_torque / bench.max_torque;
-  stage.current = stage.torque * bench.torque_constant[0] / drives.torque_constant[0];
+  const DriveParameters rig = read_robot_file(file("planar_3rrr")).drives;
+  stage.angle = drives.max_speed / rig.max_speed;
+  stage.torque = drives.max_torque / rig.max_torque;
+  stage.current = stage.torque * rig.torque_constant[0] / drives.torque_constant[0];
   return stage;
 }
 

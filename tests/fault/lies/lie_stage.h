@@ -17,12 +17,12 @@ struct LieStage {
   /// The section of a scenario with that obstacle, touched so much before the middle [mm].
   std::string (*obstacle)(double earlier_mm);
   std::string control;   ///< that section of a scenario, for a robot that differs from its model
-  double angle = 1.0;    ///< times sizes of lies that are angles of a drive of the bench
+  double angle = 1.0;    ///< times sizes of lies that are angles of a drive of the rig
   double current = 1.0;  ///< currents
   double torque = 1.0;   ///< torques
 };
 
-/// That of "planar_3rrr", the bench, "five_bar" or "hexapod_6ups".
+/// That of "planar_3rrr", the rig, "five_bar" or "hexapod_6ups".
 const LieStage& lie_stage(const std::string& robot);
 
 }  // namespace flinch::test

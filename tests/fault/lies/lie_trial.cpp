@@ -118,7 +118,7 @@ std::string faults_of(const LieScene& scene, const std::string& lie) {
 LieRun run(const LieScene& scene, const std::string& lie) {
   SimulatedScenario scenario =
       parse_simulated_scenario(text_of(scene, faults_of(scene, lie)), "lie.yaml", scene.seed);
-  scenario.control.forward_kinematics.initial_pose = scenario.station.bench.initial_pose.value_or(
+  scenario.control.forward_kinematics.initial_pose = scenario.station.rig.initial_pose.value_or(
       scenario.robot.robot->home_pose());  // without passive encoders nothing else tells it
   const Recording recording = run_experiment(scenario);
   LieRun run;

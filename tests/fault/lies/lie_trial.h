@@ -50,7 +50,7 @@ struct LieOutcome {
   std::optional<Time> alarm;  ///< from the lie until the gate closes
   GateFault fault = GateFault::none;
   bool named = false;  ///< a fault that doubts what lies, not a limit that is passed
-  /// Largest beyond the honest run's, until 50 ms or the alarm [% of the largest; Nm at the bench].
+  /// Largest beyond the honest run's, until 50 ms or the alarm [% of the largest; Nm at the rig].
   double torque = 0.0;
   double excess = 0.0;       ///< speed above the honest run's, after the alarm [m/s]
   std::optional<Time> rest;  ///< from the alarm until the platform rests
@@ -70,7 +70,7 @@ LieRun honest_run(const LieScene& scene);
 LieOutcome try_lie(const LieScene& scene, const std::string& lie, const LieRun& honest);
 
 /// What speaks against an answer: no name for a lie that makes more than 30 % of the largest torque (30 Nm at
-/// the bench) within 50 ms, more than
+/// the rig) within 50 ms, more than
 /// 0.3 m/s above the honest run after the alarm, more than 30 ms until rest (60 ms with brakes of 30 ms), or
 /// an energy that grows for more than 5 ms. "" where nothing does.
 std::string problem_with(const LieOutcome& outcome);

@@ -1,4 +1,4 @@
-// What a robot of the bench makes of sensors and drives that lie: a slice of the campaign.
+// What a robot of the rig makes of sensors and drives that lie: a slice of the campaign.
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "tests/fault/link/link_fault_table.h"
 #include "tests/fault/link/link_trial.h"
-#include "tests/support/machine_watch.h"
+#include "tests/support/machine_monitor.h"
 
 namespace flinch {
 namespace {

@@ -8,7 +8,7 @@
 #include "systems/signals/gate_status.h"
 #include "tests/fault/link/link_course.h"
 #include "tests/fault/link/link_trial.h"
-#include "tests/fault/link/spoilt_bench.h"
+#include "tests/fault/link/spoilt_rig.h"
 #include "tests/fault/link/trials.h"
 #include "tests/support/shared_memory.h"
 
@@ -18,7 +18,7 @@ namespace {
 /// A robot whose sensors the test can spoil.
 class SensorTrial {
  public:
-  SensorTrial() : trial_([this](std::uint32_t domain) { serve_spoilt_bench(domain, *spoilt_); }) {}
+  SensorTrial() : trial_([this](std::uint32_t domain) { serve_spoilt_rig(domain, *spoilt_); }) {}
 
   Spoilt& spoilt() { return *spoilt_; }
   LinkTrial& link() { return trial_; }

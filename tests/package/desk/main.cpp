@@ -8,13 +8,13 @@
 #include "systems/robot/planar_rrr.h"
 #include "systems/robot/planar_rrr_presets.h"
 
-/// Simulates the bench with its brakes closed and checks that it stays at home.
+/// Simulates the rig with its brakes closed and checks that it stays at home.
 int main() {
   using namespace flinch;
   SimulatedStationSettings settings;
   const auto robot =
-      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
-  settings.bench.robot = robot;
+      std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
+  settings.rig.robot = robot;
 
   DiagramBuilder builder;
   const SimulatedStation station = add_simulated_station(builder, settings);

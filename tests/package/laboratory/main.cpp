@@ -25,11 +25,11 @@ class HoldPose final : public flinch::System {
 
 }  // namespace
 
-/// Holds the bench at home and checks that forward kinematics finds the way back.
+/// Holds the rig at home and checks that forward kinematics finds the way back.
 int main() {
   using namespace flinch;
   const auto robot =
-      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+      std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
 
   DiagramBuilder builder;
   auto& home = builder.add<Constant<PlatformVector>>("home", robot->home_pose());

@@ -25,7 +25,8 @@ const std::map<FileKind, std::string> examples = {
     {FileKind::scenario, "robot: a.yaml\nduration_s: 1\n"},
     {FileKind::campaign, "scenario: a.yaml\nruns: 2\n"},
     {FileKind::robot, "kind: planar_3rrr\nlegs: []\n"},
-    {FileKind::data_spec, "contacts: []\n"}};
+    {FileKind::data_spec, "contacts: []\n"},
+    {FileKind::figures, "figures: []\n"}};
 
 Problems problems_as(FileKind wanted, const std::string& text) {
   return problems_of([&] { require_kind(ConfigReader::parse(text, "a.yaml"), wanted); });
@@ -44,6 +45,7 @@ TEST(FileKinds, OfAllFilesThatAreHereAreThoseOfTheirFolders) {
   for (const auto& [folder, kind] : {std::pair("robots", FileKind::robot),
                                      {"scenarios", FileKind::scenario},
                                      {"calibrations", FileKind::parameters},
+                                     {"papers", FileKind::figures},
                                      {"campaigns", FileKind::campaign},
                                      {"models", FileKind::data_spec}}) {
     int files = 0;

@@ -72,12 +72,12 @@ void expect_same_robot(const PlanarRrrParameters& a, const PlanarRrrParameters& 
   EXPECT_EQ(a.home_pose, b.home_pose);
 }
 
-// Every planar 3-RRR that ships is one of the published benches, bit for bit.
+// Every planar 3-RRR that ships is one of the published rigs, bit for bit.
 TEST(ShippedRobots, AreThePublishedOnes) {
   expect_same_robot(parameters_of<PlanarRrr>(robots / "planar_3rrr.yaml"),
-                    bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+                    rig_robot(RigGeometry::individual, RigFriction::test_rig));
   expect_same_robot(parameters_of<PlanarRrr>(robots / "planar_3rrr_nominal.yaml"),
-                    bench_robot(BenchGeometry::nominal, BenchFriction::simulation));
+                    rig_robot(RigGeometry::nominal, RigFriction::simulation));
 }
 
 TEST(ShippedRobots, HaveAFiveBarThatIsThePreset) {
@@ -106,15 +106,15 @@ TEST(ShippedRobots, CanAllBeLoaded) {
 }
 
 TEST(ShippedRobots, SayWhatTheirDrivesAreGivenAndMayDo) {
-  const DriveParameters bench = read_robot_file(robots / "planar_3rrr.yaml").drives;
-  EXPECT_EQ(bench.torque_constant, (JointVector{{6.021, 6.6116, 6.7315}}));
-  EXPECT_EQ(bench.max_torque, 100.0);
-  EXPECT_EQ(bench.max_torque_rate, 20e3);
-  EXPECT_EQ(bench.max_torque_jump, 40.0);
-  EXPECT_EQ(bench.max_speed, 8.0);
-  EXPECT_EQ(bench.max_encoder_rate, 12.0);
-  EXPECT_EQ(bench.max_control_error, 25.0 * std::numbers::pi / 180.0);
-  EXPECT_EQ(bench.max_unseen_motion, 0.25 * std::numbers::pi / 180.0);
+  const DriveParameters rig = read_robot_file(robots / "planar_3rrr.yaml").drives;
+  EXPECT_EQ(rig.torque_constant, (JointVector{{6.021, 6.6116, 6.7315}}));
+  EXPECT_EQ(rig.max_torque, 100.0);
+  EXPECT_EQ(rig.max_torque_rate, 20e3);
+  EXPECT_EQ(rig.max_torque_jump, 40.0);
+  EXPECT_EQ(rig.max_speed, 8.0);
+  EXPECT_EQ(rig.max_encoder_rate, 12.0);
+  EXPECT_EQ(rig.max_control_error, 25.0 * std::numbers::pi / 180.0);
+  EXPECT_EQ(rig.max_unseen_motion, 0.25 * std::numbers::pi / 180.0);
   const DriveParameters silent = read_robot_file(robots / "planar_3rrr_nominal.yaml").drives;
   EXPECT_EQ(silent.torque_constant, (JointVector{{6.1, 6.1, 6.1}}));
   EXPECT_EQ(silent.max_torque_rate, 20e3);
@@ -143,14 +143,14 @@ TEST(ShippedRobots, AreLimitedToTheirWorkspaces) {
 
 TEST(ShippedRobots, HaveTheLimitsOfBenchAndSimulation) {
   constexpr double degree = std::numbers::pi / 180.0;
-  const WorkspaceLimits bench = read_robot_file(robots / "planar_3rrr.yaml").limits;
-  EXPECT_EQ(bench.max_distance, 0.35);
-  EXPECT_EQ(bench.max_rotation, 29.0 * degree);
-  EXPECT_EQ(bench.min_abs_det_A, 0.2);
-  EXPECT_EQ(bench.min_abs_det_B, 0.15);
-  EXPECT_EQ(bench.min_self_collision_distance, 0.05);
-  EXPECT_EQ(bench.min_active, -35.0 * degree);
-  EXPECT_EQ(bench.max_active, 150.0 * degree);
+  const WorkspaceLimits rig = read_robot_file(robots / "planar_3rrr.yaml").limits;
+  EXPECT_EQ(rig.max_distance, 0.35);
+  EXPECT_EQ(rig.max_rotation, 29.0 * degree);
+  EXPECT_EQ(rig.min_abs_det_A, 0.2);
+  EXPECT_EQ(rig.min_abs_det_B, 0.15);
+  EXPECT_EQ(rig.min_self_collision_distance, 0.05);
+  EXPECT_EQ(rig.min_active, -35.0 * degree);
+  EXPECT_EQ(rig.max_active, 150.0 * degree);
   const WorkspaceLimits simulation = read_robot_file(robots / "planar_3rrr_nominal.yaml").limits;
   EXPECT_EQ(simulation.max_distance, 0.7);
   EXPECT_EQ(simulation.min_active, -150.0 * degree);

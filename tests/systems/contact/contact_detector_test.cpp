@@ -17,13 +17,13 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::shared_ptr<const PlanarRrr> bench() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+std::shared_ptr<const PlanarRrr> rig() {
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
 }
 
 struct Detector {
   explicit Detector(const ContactDetectorSettings& settings = {})
-      : block(builder.add<ContactDetector>("detector", bench(), settings)),
+      : block(builder.add<ContactDetector>("detector", rig(), settings)),
         wrench(builder.export_input("wrench", block.wrench)),
         reset(builder.export_input("reset", block.reset)),
         ticking(builder) {}
@@ -183,10 +183,10 @@ TEST(ContactDetector, DoesNotAllocate) {
 }
 
 TEST(ContactDetector, AsksForPositiveThresholdsAndAHardOneNotBelowTheOther) {
-  EXPECT_THROW(ContactDetector(bench(), {.reaction = {0.0, 1.0}, .hard = {60.0, 3.0}}), SetupError);
-  EXPECT_THROW(ContactDetector(bench(), {.reaction = {10.0, nan}, .hard = {60.0, 3.0}}), SetupError);
-  EXPECT_THROW(ContactDetector(bench(), {.reaction = {10.0, 1.0}, .hard = {60.0, 0.5}}), SetupError);
-  EXPECT_NO_THROW(ContactDetector(bench(), {.reaction = {10.0, 1.0}, .hard = {10.0, 1.0}}));
+  EXPECT_THROW(ContactDetector(rig(), {.reaction = {0.0, 1.0}, .hard = {60.0, 3.0}}), SetupError);
+  EXPECT_THROW(ContactDetector(rig(), {.reaction = {10.0, nan}, .hard = {60.0, 3.0}}), SetupError);
+  EXPECT_THROW(ContactDetector(rig(), {.reaction = {10.0, 1.0}, .hard = {60.0, 0.5}}), SetupError);
+  EXPECT_NO_THROW(ContactDetector(rig(), {.reaction = {10.0, 1.0}, .hard = {10.0, 1.0}}));
 }
 
 }  // namespace

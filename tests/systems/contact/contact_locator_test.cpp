@@ -31,7 +31,7 @@ ContactLocation on_platform(const ParallelRobot& robot, const Kinematics& k, con
 }
 
 TEST(LocateOnPlatform, FindsThePointOfAPushAnywhereAroundIt) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   for (const Kinematics& k : test::random_kinematics(*robot, 50)) {
     for (double around = 0.0; around < 6.2; around += 0.3) {
       for (const double lean : {-0.5, 0.0, 0.5}) {
@@ -50,7 +50,7 @@ TEST(LocateOnPlatform, FindsThePointOfAPushAnywhereAroundIt) {
 }
 
 TEST(LocateOnPlatform, IsOffByAsMuchAsItsDeviationSays) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Outline outline(robot->body(BodyId::platform()).shapes);
   const PlatformVector deviation{{1.5, 1.5, 0.1}};
   const PlatformMatrix S = deviation.cwiseAbs2().asDiagonal();
@@ -107,7 +107,7 @@ Eigen::Vector3d entry_of_box(const Eigen::Vector3d& half, const Eigen::Vector3d&
 }
 
 TEST(LocateOnPlatform, IsOffByAsMuchAsItsDeviationSaysWhereLinesGrazeACircleOrABox) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   constexpr double radius = 0.137, size = 40.0;
   const Eigen::Vector3d half(0.1, 0.06, 0.02);
   const PlatformVector deviation{{0.5, 0.5, 0.2}};
@@ -195,7 +195,7 @@ TEST(LocateOnPlatform, IsAsUnsureAsTheLineThatSurelyMissesIt) {
 }
 
 TEST(LocateOnPlatform, IsAnywhereOnItWhereTheLineMayLieAnywhere) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics k = test::at_home(*robot);
   const Outline outline({Box{.half_lengths = {0.01, 0.3, 0.01}}});
   const PlatformMatrix S = PlatformVector{{1.0, 1.0, 1e6}}.asDiagonal();
@@ -206,11 +206,11 @@ TEST(LocateOnPlatform, IsAnywhereOnItWhereTheLineMayLieAnywhere) {
 }
 
 TEST(LocateOnPlatform, IsSureOfItsErrorsForForcesOfAnySize) {
-  const auto bench = test::touched_bench();
+  const auto rig = test::touched_rig();
   const Hexapod hexapod(hexapod_robot());
   for (double size = 1.0; size < 5e9; size *= 10.0) {  // as large as is usable
     for (const ParallelRobot* robot :
-         {static_cast<const ParallelRobot*>(bench.get()), static_cast<const ParallelRobot*>(&hexapod)}) {
+         {static_cast<const ParallelRobot*>(rig.get()), static_cast<const ParallelRobot*>(&hexapod)}) {
       PlatformVector wrench = PlatformVector::Constant(robot->dof(), 0.01);
       wrench[0] = -1.0;
       const PlatformMatrix S = WrenchUncertainty{.share_of_force = 0.0, .share_of_lever = 0.0}.covariance(
@@ -227,7 +227,7 @@ TEST(LocateOnPlatform, IsSureOfItsErrorsForForcesOfAnySize) {
 }
 
 TEST(LocateOnPlatform, LeavesOfTheWrenchWhatNoPushThereMakes) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics k = test::at_home(*robot);
   const PlatformMatrix S = noise(*robot);
   EXPECT_LT(on_platform(*robot, k, PlatformVector{{-20.0, 3.0, 1.0}}).residual, 1e-20);
@@ -241,7 +241,7 @@ TEST(LocateOnPlatform, LeavesOfTheWrenchWhatNoPushThereMakes) {
 }
 
 TEST(LocateOnPlatform, GivesTheNearestPointWhereTheLineMisses) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics k = test::at_home(*robot);
   const ContactLocation found = on_platform(*robot, k, PlatformVector{{-20.0, 0.0, 6.0}});  // 0.3 m above
   EXPECT_TRUE(found.valid);
@@ -250,7 +250,7 @@ TEST(LocateOnPlatform, GivesTheNearestPointWhereTheLineMisses) {
 }
 
 TEST(LocateOnPlatform, IsNotValidForAPureMoment) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   EXPECT_FALSE(on_platform(*robot, test::at_home(*robot), PlatformVector{{0.3, 0.0, 6.0}}).valid);
 }
 
@@ -274,7 +274,7 @@ TEST(LocateOnPlatform, KnowsNoPointOfAPlatformThatCannotTurnAndFindsThoseOfAPris
 }
 
 TEST(LocateOnLink, FindsThePointOnTheSurfaceThatIsPushed) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics k = test::at_home(*robot);
   const BodyId link = BodyId::link2(1);
   const LinkContactMap map = link_contact_map(*robot, k, link);
@@ -292,7 +292,7 @@ TEST(LocateOnLink, FindsThePointOnTheSurfaceThatIsPushed) {
 
 // Forces that lean by friction are not what the closed form assumes; its covariance covers them.
 TEST(LocateOnLink, CoversForcesThatLean) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   std::mt19937 generator(4);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform(0.1, 0.9);
@@ -324,7 +324,7 @@ TEST(LocateOnLink, CoversForcesThatLean) {
 
 // A rough post stands still while the link slides along it: how hard it rubs is unknown, not to which side.
 TEST(LocateOnLink, KnowsToWhichSideFrictionLeansWhereTheLinkSlides) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   std::mt19937 generator(4);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform(0.1, 0.9);
@@ -394,7 +394,7 @@ struct Block {
 };
 
 TEST(ContactLocator, LocatesTheClassifiedBody) {
-  Block locator(test::touched_bench());
+  Block locator(test::touched_rig());
   const PlatformVector push{{-40.0, 0.0, 1.0}};
   EXPECT_EQ(locator.see(0, push).body, 0);
   EXPECT_TRUE(locator.see(0, push).located);
@@ -404,7 +404,7 @@ TEST(ContactLocator, LocatesTheClassifiedBody) {
 }
 
 TEST(ContactLocator, KnowsLessOfAForceThatGrowsButAsMuchOfItsPlace) {
-  Block locator(test::touched_bench());
+  Block locator(test::touched_rig());
   const BodyId link = BodyId::link2(1);
   const PlatformVector push =
       test::wrench_on_link(*locator.robot, test::at_home(*locator.robot), link, 0.3, {0.0, 50.0});
@@ -421,13 +421,13 @@ TEST(ContactLocator, KnowsLessOfAForceThatGrowsButAsMuchOfItsPlace) {
 }
 
 TEST(ContactLocator, SaysNothingWhereItIsNotKnownWhatTheEstimateIsBehindBy) {
-  Block locator(test::touched_bench());
+  Block locator(test::touched_rig());
   locator.lately.reset();
   EXPECT_FALSE(locator.see(0, PlatformVector{{-40.0, 0.0, 1.0}}).valid);
 }
 
 TEST(ContactLocator, SaysNothingOfWhatIsNotClassifiedClampedOrGone) {
-  Block locator(test::touched_bench());
+  Block locator(test::touched_rig());
   const PlatformVector push{{-40.0, 0.0, 1.0}};
   const test::AllocationCounter allocations;
   EXPECT_FALSE(locator.see(0, push, false).valid);
@@ -441,8 +441,8 @@ TEST(ContactLocator, SaysNothingOfWhatIsNotClassifiedClampedOrGone) {
 }
 
 TEST(ContactLocator, AsksForPositiveSettings) {
-  EXPECT_THROW(ContactLocator(test::touched_bench(), {.least_force = 0.0}, {}), SetupError);
-  EXPECT_THROW(ContactLocator(test::touched_bench(), {}, {.force = -1.0}), SetupError);
+  EXPECT_THROW(ContactLocator(test::touched_rig(), {.least_force = 0.0}, {}), SetupError);
+  EXPECT_THROW(ContactLocator(test::touched_rig(), {}, {.force = -1.0}), SetupError);
 }
 
 }  // namespace

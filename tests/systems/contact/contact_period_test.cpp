@@ -15,10 +15,10 @@ struct Period {
         reset(builder.export_input("reset", block.reset)),
         ticking(builder) {}
 
-  const ContactPhase& see(bool noticed, bool reset_now = false) {
+  const ContactPhase& see(bool detected, bool reset_now = false) {
     ContactDetection contact;
     contact.valid = true;
-    contact.present_level = noticed ? ContactLevel::reaction : ContactLevel::none;
+    contact.present_level = detected ? ContactLevel::reaction : ContactLevel::none;
     ticking.set(detection, contact);
     ticking.set(reset, ResetCommand{reset_now});
     ticking.tick();

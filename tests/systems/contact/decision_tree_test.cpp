@@ -16,7 +16,7 @@ namespace {
 constexpr ContactClasses classes(7, 3);
 
 struct Bench {
-  std::shared_ptr<const PlanarRrr> robot = test::touched_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::touched_rig();
   Kinematics home = test::at_home(*robot);
 
   int decide_on(const PlatformVector& wrench, const Kinematics& k) const {
@@ -26,25 +26,24 @@ struct Bench {
 };
 
 TEST(DecisionTree, TellsExactContactsApartAsFarAsItsLimitsAllow) {
-  const Bench bench;
+  const Bench rig;
   for (int leg = 0; leg < 3; ++leg) {
     const auto on = [&](BodyId link, double fraction) {
-      return bench.decide_on(test::wrench_on_link(*bench.robot, bench.home, link, fraction, {0.0, 40.0}),
-                             bench.home);
+      return rig.decide_on(test::wrench_on_link(*rig.robot, rig.home, link, fraction, {0.0, 40.0}), rig.home);
     };
     EXPECT_EQ(on(BodyId::link1(leg), 0.7), ContactClasses::collision(BodyId::link1(leg)));
     EXPECT_EQ(on(BodyId::link2(leg), 0.7), ContactClasses::collision(BodyId::link2(leg)));
     // Below the cone of 35 degrees, so near the elbow, a second link looks like a first.
     EXPECT_EQ(on(BodyId::link2(leg), 0.1), ContactClasses::collision(BodyId::link1(leg)));
   }
-  EXPECT_EQ(bench.decide_on(PlatformVector{{0.0, 40.0, 0.0}}, bench.home), 0);
+  EXPECT_EQ(rig.decide_on(PlatformVector{{0.0, 40.0, 0.0}}, rig.home), 0);
 }
 
 TEST(DecisionTree, SeesClampingWhereTheLegIsFolded) {
-  const Bench bench;
-  for (const Kinematics& k : test::random_kinematics(*bench.robot, 200)) {
-    const PlatformVector wrench = test::wrench_on_link(*bench.robot, k, BodyId::link2(1), 0.6, {0.0, 40.0});
-    const int said = bench.decide_on(wrench, k);
+  const Bench rig;
+  for (const Kinematics& k : test::random_kinematics(*rig.robot, 200)) {
+    const PlatformVector wrench = test::wrench_on_link(*rig.robot, k, BodyId::link2(1), 0.6, {0.0, 40.0});
+    const int said = rig.decide_on(wrench, k);
     const bool folded = std::abs(k.joints.passive[1]) > 130.0 / 180.0 * std::numbers::pi;
     if (classes.leg(said) == 1) {
       EXPECT_EQ(classes.is_clamping(said), folded);
@@ -74,7 +73,7 @@ TEST(DecisionTree, SaysNothingOfFeaturesThatAreNotThere) {
 
 struct Tree {
   explicit Tree(const DecisionTreeSettings& settings = {})
-      : block(builder.add<DecisionTree>("tree", bench.robot, settings)),
+      : block(builder.add<DecisionTree>("tree", rig.robot, settings)),
         phase(builder.export_input("phase", block.phase)),
         features(builder.export_input("features", block.features)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
@@ -83,15 +82,15 @@ struct Tree {
   ContactClassification see(bool active, const PlatformVector& wrench, const Kinematics& k) {
     ticking.set(kinematics, k);
     ticking.set(phase, ContactPhase{active, {}});
-    ticking.set(features, contact_features(*bench.robot, k, test::estimate_of(k, wrench), {}));
+    ticking.set(features, contact_features(*rig.robot, k, test::estimate_of(k, wrench), {}));
     ticking.tick();
     return ticking.get(block.classification);
   }
   ContactClassification see(bool active, const PlatformVector& wrench) {
-    return see(active, wrench, bench.home);
+    return see(active, wrench, rig.home);
   }
 
-  Bench bench;
+  Bench rig;
   DiagramBuilder builder;
   DecisionTree& block;
   InputPort<ContactPhase> phase;
@@ -108,10 +107,10 @@ TEST(DecisionTree, IsAsSureAsAnswersOfThatSortAreRight) {
                                       .accept = 0.6};
   Tree tree(settings);
   std::map<int, int> said;
-  for (const Kinematics& k : test::random_kinematics(*tree.bench.robot, 200)) {
+  for (const Kinematics& k : test::random_kinematics(*tree.rig.robot, 200)) {
     for (const double fraction : {0.1, 0.7}) {
       const PlatformVector push =
-          test::wrench_on_link(*tree.bench.robot, k, BodyId::link2(1), fraction, {0.0, 40.0});
+          test::wrench_on_link(*tree.rig.robot, k, BodyId::link2(1), fraction, {0.0, 40.0});
       for (const PlatformVector& wrench : {push, PlatformVector(PlatformVector{{0.0, 40.0, 0.0}})}) {
         tree.see(false, wrench, k);
         const ContactClassification answer = tree.see(true, wrench, k);
@@ -143,11 +142,11 @@ TEST(DecisionTree, IsByDefaultNotActedUponButOfThePlatform) {
 
 TEST(DecisionTree, AnswersAtTheDetectionAndKeepsItUntilTheContactEnds) {
   Tree tree;
-  const Bench& bench = tree.bench;
+  const Bench& rig = tree.rig;
   const auto see = [&](bool active, const PlatformVector& wrench) { return tree.see(active, wrench); };
   const PlatformVector on_platform{{0.0, 40.0, 0.0}};
   const PlatformVector on_link =
-      test::wrench_on_link(*bench.robot, bench.home, BodyId::link2(2), 0.8, {0.0, 40.0});
+      test::wrench_on_link(*rig.robot, rig.home, BodyId::link2(2), 0.8, {0.0, 40.0});
   const test::AllocationCounter allocations;
   EXPECT_FALSE(see(false, on_platform).valid);
   EXPECT_FALSE(see(true, PlatformVector::Zero(3)).valid);
@@ -161,7 +160,7 @@ TEST(DecisionTree, AnswersAtTheDetectionAndKeepsItUntilTheContactEnds) {
 }
 
 TEST(DecisionTree, AsksForPositiveLimitsAndShares) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   EXPECT_THROW(DecisionTree(robot, {.leg_distance = 0.0}), SetupError);
   EXPECT_THROW(DecisionTree(robot, {.right_of_link1 = 1.1}), SetupError);
   EXPECT_THROW(DecisionTree(robot, {.right_of_clamping = std::nan("")}), SetupError);

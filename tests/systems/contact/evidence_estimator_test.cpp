@@ -9,7 +9,7 @@ namespace flinch {
 namespace {
 
 TEST(EvidenceEstimator, WeighsInTheFirstMomentsOfAContactAndRestsOtherwise) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   DiagramBuilder builder;
   auto& block =
       builder.add<EvidenceEstimator>("evidence", robot, TouchHypothesesSettings{}, WrenchUncertainty{}, 5ms);
@@ -41,7 +41,7 @@ TEST(EvidenceEstimator, WeighsInTheFirstMomentsOfAContactAndRestsOtherwise) {
 }
 
 TEST(EvidenceEstimator, AsksForNoiseThatIsPositive) {
-  EXPECT_THROW(EvidenceEstimator(test::touched_bench(), {}, {.force = 0.0}, 10ms), SetupError);
+  EXPECT_THROW(EvidenceEstimator(test::touched_rig(), {}, {.force = 0.0}, 10ms), SetupError);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ ContactEvidence exchanged(const ContactEvidence& evidence) {
 LegCourses random_courses(std::uint64_t seed) {
   RandomGenerator random(seed);
   LegCourses courses{};
-  for (LegCourse& course : courses) {
+  for (LegHistory& course : courses) {
     course.elbow_cosine = random.uniform(-1.0, 1.0);
     for (LegMoment& moment : course.moments) {
       for (double* number : {&moment.link1_force, &moment.link2_force, &moment.other_force,

@@ -25,8 +25,8 @@ using ::testing::ElementsAre;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::shared_ptr<const PlanarRrr> bench() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+std::shared_ptr<const PlanarRrr> rig() {
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
 }
 
 WrenchEstimate estimate_of(const Kinematics& kinematics, const PlatformVector& wrench) {
@@ -36,11 +36,11 @@ WrenchEstimate estimate_of(const Kinematics& kinematics, const PlatformVector& w
           .drive_torque = drive_torques(kinematics, wrench)};
 }
 
-/// What is felt of a force on `body` at `fraction` of its axis, in each of 100 states of the bench.
+/// What is felt of a force on `body` at `fraction` of its axis, in each of 100 states of the rig.
 template <class See>
 void for_each_push(BodyId body, double fraction, const Eigen::Vector2d& force_along_and_across,
                    const See& see) {
-  const auto robot = bench();
+  const auto robot = rig();
   for (const auto& [pose, velocity] : test::random_motions(*robot, 100)) {
     Kinematics k;
     robot->kinematics(pose, velocity, k);
@@ -78,7 +78,7 @@ TEST(ContactFeatures, OfASecondLinkTellByTheAngleHowFarFromTheElbowItIsPushed) {
 }
 
 TEST(ContactFeatures, CountTheDrivesAboveTheirThreshold) {
-  const auto robot = bench();
+  const auto robot = rig();
   Kinematics k;
   robot->kinematics(robot->home_pose(), PlatformVector::Zero(3), k);
   WrenchEstimate estimate = estimate_of(k, PlatformVector{{20.0, 0.0, 0.0}});
@@ -89,7 +89,7 @@ TEST(ContactFeatures, CountTheDrivesAboveTheirThreshold) {
 }
 
 TEST(ContactFeatures, AreZeroAndInvalidWithoutAForceOrAPose) {
-  const auto robot = bench();
+  const auto robot = rig();
   Kinematics good;
   Kinematics bad;
   robot->kinematics(robot->home_pose(), PlatformVector::Zero(3), good);
@@ -122,7 +122,7 @@ std::vector<std::string> names_of(const ParallelRobot& robot) {
 }
 
 TEST(FeatureNames, FollowTheVectorOfThePapers) {
-  EXPECT_THAT(names_of(*bench()),
+  EXPECT_THAT(names_of(*rig()),
               ElementsAre("force_x N", "force_y N", "moment_z Nm", "drive_torque_1 Nm", "drive_torque_2 Nm",
                           "drive_torque_3 Nm", "distance_1 m", "distance_2 m", "distance_3 m", "angle_1 rad",
                           "angle_2 rad", "angle_3 rad"));
@@ -141,7 +141,7 @@ TEST(FeatureNames, AreThereForOtherMechanisms) {
 }
 
 TEST(FeatureVector, HasTheSizeOfItsNamesForEveryMechanism) {
-  const std::shared_ptr<const ParallelRobot> robots[] = {bench(), std::make_shared<FiveBar>(five_bar_robot()),
+  const std::shared_ptr<const ParallelRobot> robots[] = {rig(), std::make_shared<FiveBar>(five_bar_robot()),
                                                          std::make_shared<Hexapod>(hexapod_robot())};
   for (const auto& robot : robots) {
     Kinematics k;
@@ -158,7 +158,7 @@ TEST(FeatureVector, HasTheSizeOfItsNamesForEveryMechanism) {
 
 TEST(FeatureExtraction, ComputesTheFeaturesAtEveryTickWithoutAllocating) {
   DiagramBuilder builder;
-  const auto robot = bench();
+  const auto robot = rig();
   auto& block = builder.add<FeatureExtraction>("features", robot, FeatureSettings{});
   const auto kinematics = builder.export_input("kinematics", block.kinematics);
   const auto wrench = builder.export_input("wrench", block.wrench);
@@ -176,8 +176,8 @@ TEST(FeatureExtraction, ComputesTheFeaturesAtEveryTickWithoutAllocating) {
 }
 
 TEST(FeatureExtraction, AsksForPositiveSettings) {
-  EXPECT_THROW(FeatureExtraction(bench(), {.least_force = 0.0, .affected_drive = 2.5}), SetupError);
-  EXPECT_THROW(FeatureExtraction(bench(), {.least_force = 1.0, .affected_drive = nan}), SetupError);
+  EXPECT_THROW(FeatureExtraction(rig(), {.least_force = 0.0, .affected_drive = 2.5}), SetupError);
+  EXPECT_THROW(FeatureExtraction(rig(), {.least_force = 1.0, .affected_drive = nan}), SetupError);
 }
 
 }  // namespace

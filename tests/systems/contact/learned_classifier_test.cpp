@@ -17,8 +17,8 @@
 namespace flinch {
 namespace {
 
-std::shared_ptr<const PlanarRrr> bench() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+std::shared_ptr<const PlanarRrr> rig() {
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
 }
 
 /// Takes every class for as likely as its evidence says: a score that is own_log_share.
@@ -34,7 +34,7 @@ std::shared_ptr<const NeuralNetwork> takes_evidence_as_it_is() {
 
 struct Classifier {
   explicit Classifier(const LearnedClassifierSettings& settings = {.network = takes_evidence_as_it_is()})
-      : block(builder.add<LearnedClassifier>("classifier", bench(), settings)),
+      : block(builder.add<LearnedClassifier>("classifier", rig(), settings)),
         phase(builder.export_input("phase", block.phase)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
         evidence(builder.export_input("evidence", block.evidence)),
@@ -42,7 +42,7 @@ struct Classifier {
         course(builder.export_input("course", block.course)),
         ticking(builder) {
     Kinematics home;
-    bench()->kinematics(bench()->home_pose(), PlatformVector::Zero(3), home);
+    rig()->kinematics(rig()->home_pose(), PlatformVector::Zero(3), home);
     ticking.set(kinematics, home);
   }
 
@@ -57,7 +57,7 @@ struct Classifier {
     seen.force = ClassVector::Constant(10, 30.0);
     ticking.set(evidence, seen);
     ticking.set(growth, has_grown ? seen : ContactEvidence());
-    ContactCourse told;
+    ContactWindow told;
     told.valid = has_course;
     told.moments.fill({Eigen::Vector3d(30.0, 0.0, 1.0), Eigen::Vector3d(0.3, 0.1, 0.0)});
     ticking.set(course, told);
@@ -73,7 +73,7 @@ struct Classifier {
   InputPort<ContactPhase> phase;
   InputPort<Kinematics> kinematics;
   InputPort<ContactEvidence> evidence, growth;
-  InputPort<ContactCourse> course;
+  InputPort<ContactWindow> course;
   test::Ticking ticking;
   bool has_grown = true, has_course = true;  ///< they are known
 
@@ -142,12 +142,12 @@ TEST(LearnedClassifier, DoesNotAllocate) {
 }
 
 TEST(LearnedClassifier, NeedsANetworkThatIsToldTheEvidence) {
-  EXPECT_THAT(test::problems_of([] { LearnedClassifier(bench(), {}); }),
+  EXPECT_THAT(test::problems_of([] { LearnedClassifier(rig(), {}); }),
               testing::ElementsAre("learned classifier: there is no network"));
   NetworkParameters other;
   other.layers.push_back({Eigen::MatrixXd::Zero(2, 6), Eigen::VectorXd::Zero(2), Activation::none});
   EXPECT_THAT(test::problems_of(
-                  [&] { LearnedClassifier(bench(), {.network = std::make_shared<NeuralNetwork>(other)}); }),
+                  [&] { LearnedClassifier(rig(), {.network = std::make_shared<NeuralNetwork>(other)}); }),
               testing::ElementsAre(
                   "learned classifier: the network answers another question than which class was touched"));
 }

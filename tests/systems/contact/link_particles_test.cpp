@@ -16,7 +16,7 @@ namespace flinch {
 namespace {
 
 struct Trial {
-  std::shared_ptr<const PlanarRrr> robot = test::touched_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::touched_rig();
   Kinematics k = test::at_home(*robot);
   LinkContactMap link = link_contact_map(*robot, k, BodyId::link2(0));
 
@@ -94,7 +94,7 @@ LinkPush closed_form(const LinkContactMap& link, const Kinematics& k, const Join
 
 Agreement agreement(const LinkParticleSettings& settings, Start from, int steps, int pushes,
                     double torque_deviation) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   RandomGenerator random(3);
   Agreement found;
   std::vector<double> off;

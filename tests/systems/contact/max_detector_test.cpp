@@ -7,7 +7,7 @@
 namespace flinch {
 namespace {
 
-ContactDetection noticed(ContactLevel level, Time when, double force) {
+ContactDetection detected(ContactLevel level, Time when, double force) {
   return {.valid = true,
           .level = level,
           .present_level = level,
@@ -30,7 +30,7 @@ ContactDetection either(const ContactDetection& first, const ContactDetection& s
 const ContactDetection quiet{.valid = true, .wrench_in_base = {}};
 
 TEST(MaxDetector, SaysWhatOneOfThemSays) {
-  const ContactDetection touch = noticed(ContactLevel::reaction, 5ms, 2.0);
+  const ContactDetection touch = detected(ContactLevel::reaction, 5ms, 2.0);
   for (const ContactDetection& told : {either(touch, quiet), either(quiet, touch)}) {
     EXPECT_EQ(told.level, ContactLevel::reaction);
     EXPECT_EQ(told.present_level, ContactLevel::reaction);
@@ -41,8 +41,8 @@ TEST(MaxDetector, SaysWhatOneOfThemSays) {
 }
 
 TEST(MaxDetector, TakesTheHigherLevelAndTheEarlierTime) {
-  const ContactDetection early = noticed(ContactLevel::reaction, 5ms, 2.0);
-  const ContactDetection hard = noticed(ContactLevel::hard, 7ms, 70.0);
+  const ContactDetection early = detected(ContactLevel::reaction, 5ms, 2.0);
+  const ContactDetection hard = detected(ContactLevel::hard, 7ms, 70.0);
   for (const ContactDetection& told : {either(early, hard), either(hard, early)}) {
     EXPECT_EQ(told.level, ContactLevel::hard);
     EXPECT_EQ(told.detected, 5ms);

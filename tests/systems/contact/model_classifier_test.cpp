@@ -14,7 +14,7 @@ namespace {
 
 struct Classifier {
   explicit Classifier(const ModelClassifierSettings& settings = {},
-                      const std::shared_ptr<const ParallelRobot>& robot = test::touched_bench())
+                      const std::shared_ptr<const ParallelRobot>& robot = test::touched_rig())
       : count(robot->body_count() + robot->legs()),
         block(builder.add<ModelClassifier>("classifier", robot, settings)),
         phase(builder.export_input("phase", block.phase)),
@@ -135,7 +135,7 @@ TEST(ModelClassifier, ServesEvidenceThatCannotBeTrue) {
 }
 
 TEST(ModelClassifier, AsksForSettingsInTheirRange) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   EXPECT_THROW(ModelClassifier(robot, {.accept = 1.1}), SetupError);
   EXPECT_THROW(ModelClassifier(robot, {.window = -1ms}), SetupError);
 }

@@ -42,7 +42,7 @@ struct Block {
     return ticking.get(block.contacts);
   }
 
-  std::shared_ptr<const PlanarRrr> robot = test::touched_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::touched_rig();
   DiagramBuilder builder{"test", 1ms};
   PairLocator& block;
   InputPort<ContactPhase> phase;
@@ -71,7 +71,7 @@ TEST(PairLocator, LooksAtTheDetectionAndAfterEachPeriodAndSaysNothingAfterwards)
 }
 
 TEST(PairLocator, AsksForAPeriod) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   EXPECT_THROW(PairLocator(robot, bases_of(robot), {}, {}, 0ms), SetupError);
 }
 

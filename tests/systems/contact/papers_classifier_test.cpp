@@ -59,7 +59,7 @@ struct Classifier {
     return ticking.get(block.classification);
   }
 
-  std::shared_ptr<const PlanarRrr> robot = test::touched_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::touched_rig();
   Kinematics home = test::at_home(*robot);
   DiagramBuilder builder;
   PapersClassifier& block;
@@ -151,7 +151,7 @@ TEST(PapersClassifier, DoesNotAllocate) {
 
 TEST(PapersClassifier, NeedsThreeNetworksOfItsRobot) {
   EXPECT_THAT(test::problems_of([] {
-                PapersClassifier(test::touched_bench(),
+                PapersClassifier(test::touched_rig(),
                                  {.clamping = scorer(6, 3, 1), .chain = nullptr, .body = scorer(12, 7, 1)});
               }),
               testing::ElementsAre("papers classifier: the network for the question 'clamping' must make 2 "

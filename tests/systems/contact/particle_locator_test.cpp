@@ -43,7 +43,7 @@ struct Block {
     return test::wrench_on_link(*robot, k, BodyId::link2(leg), fraction, {0.0, 50.0});
   }
 
-  std::shared_ptr<const PlanarRrr> robot = test::touched_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::touched_rig();
   Kinematics k = test::at_home(*robot);
   DiagramBuilder builder;
   ParticleLocator& block;
@@ -267,7 +267,7 @@ TEST(ParticleLocator, CoversForcesOfRoughObjectsAlongWhichLinksSlide) {
 }
 
 TEST(ParticleLocator, AsksForAsManyParticlesAsThereIsRoomFor) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   EXPECT_THROW(ParticleLocator(robot, {.particles = 0}, {}, {}, 1), SetupError);
   EXPECT_THROW(ParticleLocator(robot, {.particles = max_particles + 1}, {}, {}, 1), SetupError);
   EXPECT_THROW(ParticleLocator(robot, {.torque_variance = 0.0}, {}, {}, 1), SetupError);

@@ -263,7 +263,7 @@ class StandingRobot {
   }
 
  private:
-  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench();
+  std::shared_ptr<const PlanarRrr> robot_ = test::planar_rig();
   test::ToldDisturbanceFilter filter_{robot_};
 };
 

@@ -45,7 +45,7 @@ int likeliest(const ContactEvidence& evidence, Eigen::Index classes = 0) {
 // A half-normal force times a Gaussian wrench, integrated over the force by the trapezoidal rule, for a
 // platform that is touched at one point without friction: the closed form, but for how likely that point is.
 TEST(TouchHypotheses, MarginaliseTheForceAsAnIntegralDoes) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics k = test::at_home(*robot);
   const TouchHypotheses hypotheses(robot, {.friction = 0.0, .points_along = 1, .points_around = 1});
   const PlatformMatrix inverse = noise(*robot).inverse();
@@ -135,7 +135,7 @@ double evidence_of_link(const ParallelRobot& robot, const Kinematics& k, BodyId 
 }
 
 TEST(TouchHypotheses, SumOverALinkWhatItsPlacesSay) {
-  const std::shared_ptr<const ParallelRobot> robots[] = {test::touched_bench(),
+  const std::shared_ptr<const ParallelRobot> robots[] = {test::touched_rig(),
                                                          std::make_shared<Hexapod>(hexapod_robot())};
   const TouchHypothesesSettings settings{.object_radius = 1e-9,
                                          .softness = 1e-9,
@@ -162,7 +162,7 @@ TEST(TouchHypotheses, SumOverALinkWhatItsPlacesSay) {
 /// Of exact contacts of 40 N in random states, the share whose class has the greatest evidence of all bodies.
 template <class Touch>
 double recognised(const std::vector<Kinematics>& states, const Touch& touch) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const TouchHypotheses hypotheses(robot, {});
   int right = 0;
   int count = 0;
@@ -181,7 +181,7 @@ double recognised(const std::vector<Kinematics>& states, const Touch& touch) {
 }
 
 TEST(TouchHypotheses, RecogniseFirstLinksThatMoveTowardsWhatTheyTouch) {
-  const auto states = test::random_kinematics(*test::touched_bench(), 100);
+  const auto states = test::random_kinematics(*test::touched_rig(), 100);
   const double share = recognised(states, [](const PlanarRrr& robot, const Kinematics& k, int leg) {
     const double side = k.rates.active[leg] > 0.0 ? -1.0 : 1.0;  // against the motion
     return std::pair(test::wrench_on_link(robot, k, BodyId::link1(leg), 0.7, {0.0, 40.0 * side}),
@@ -191,7 +191,7 @@ TEST(TouchHypotheses, RecogniseFirstLinksThatMoveTowardsWhatTheyTouch) {
 }
 
 TEST(TouchHypotheses, RecogniseSecondLinksThatMoveTowardsWhatTheyTouch) {
-  const auto states = test::random_kinematics(*test::touched_bench(), 100);
+  const auto states = test::random_kinematics(*test::touched_rig(), 100);
   const double share = recognised(states, [](const PlanarRrr& robot, const Kinematics& k, int leg) {
     const BodyId link = BodyId::link2(leg);
     const LegPoints& points = k.legs[static_cast<std::size_t>(leg)];
@@ -207,7 +207,7 @@ TEST(TouchHypotheses, RecogniseSecondLinksThatMoveTowardsWhatTheyTouch) {
 }
 
 TEST(TouchHypotheses, PlaceAPushOnASecondLinkWhereItIs) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const TouchHypotheses hypotheses(robot, {.friction = 0.0});
   const Kinematics k = test::at_home(*robot);
   for (const double fraction : {0.35, 0.6, 0.85}) {
@@ -221,7 +221,7 @@ TEST(TouchHypotheses, PlaceAPushOnASecondLinkWhereItIs) {
 }
 
 TEST(TouchHypotheses, FindClampingWhereBothLinksCloseOnSomething) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const TouchHypotheses hypotheses(robot, {});
   int right = 0;
   int count = 0;
@@ -240,7 +240,7 @@ TEST(TouchHypotheses, FindClampingWhereBothLinksCloseOnSomething) {
 }
 
 TEST(TouchHypotheses, TellByTheResidualThatNoSingleContactMakesAWrench) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const TouchHypotheses hypotheses(robot, {});
   const Kinematics k = test::at_home(*robot);
   ContactEvidence evidence;
@@ -335,7 +335,7 @@ TEST(TouchHypotheses, TellThePlatformFromTheLegsOfRobotsInSpace) {
 }
 
 TEST(TouchHypotheses, AreNotValidForUnusableInput) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const TouchHypotheses hypotheses(robot, {});
   const Kinematics k = test::at_home(*robot);
   const PlatformVector good{{20.0, 0.0, 0.0}};
@@ -357,7 +357,7 @@ TEST(TouchHypotheses, AreNotValidForUnusableInput) {
 }
 
 TEST(TouchHypotheses, NeverAllocate) {
-  const std::shared_ptr<const ParallelRobot> robots[] = {test::touched_bench(),
+  const std::shared_ptr<const ParallelRobot> robots[] = {test::touched_rig(),
                                                          std::make_shared<Hexapod>(hexapod_robot())};
   for (const auto& robot : robots) {
     const TouchHypotheses hypotheses(robot, {});
@@ -374,9 +374,9 @@ TEST(TouchHypotheses, NeverAllocate) {
 }
 
 TEST(TouchHypotheses, AskForPositiveSettings) {
-  EXPECT_THROW(TouchHypotheses(test::touched_bench(), {.force_scale = 0.0}), SetupError);
-  EXPECT_THROW(TouchHypotheses(test::touched_bench(), {.points_around = 0}), SetupError);
-  EXPECT_THROW(TouchHypotheses(test::touched_bench(), {.places_in_space = 0}), SetupError);
+  EXPECT_THROW(TouchHypotheses(test::touched_rig(), {.force_scale = 0.0}), SetupError);
+  EXPECT_THROW(TouchHypotheses(test::touched_rig(), {.points_around = 0}), SetupError);
+  EXPECT_THROW(TouchHypotheses(test::touched_rig(), {.places_in_space = 0}), SetupError);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Pushes on the planar bench and what of them is felt.
+/// Pushes on the planar rig and what of them is felt.
 class Pushed {
  public:
   explicit Pushed(unsigned seed) : random_(seed) { all_ = test::random_kinematics(*robot, 200, 0.3, seed); }
@@ -72,7 +72,7 @@ class Pushed {
     return out;
   }
 
-  std::shared_ptr<const PlanarRrr> robot = test::touched_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::touched_rig();
   std::shared_ptr<const LegBases> bases =
       std::make_shared<const PlanarLegBases>(robot, std::array<double, 3>{1.095, 1.095, 1.095});
   Kinematics at;

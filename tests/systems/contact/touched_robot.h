@@ -13,11 +13,11 @@
 #include "systems/signals/wrench_estimate.h"
 #include "tests/systems/robot/random_motion.h"
 
-/// The planar bench, touched: what tests of isolation begin with.
+/// The planar rig, touched: what tests of isolation begin with.
 namespace flinch::test {
 
-inline std::shared_ptr<const PlanarRrr> touched_bench() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+inline std::shared_ptr<const PlanarRrr> touched_rig() {
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
 }
 
 inline Kinematics kinematics_of(const ParallelRobot& robot, const Configuration& pose,
@@ -31,7 +31,7 @@ inline Kinematics at_home(const ParallelRobot& robot) {
   return kinematics_of(robot, robot.home_pose(), PlatformVector::Zero(robot.dof()));
 }
 
-/// `count` states of the bench within its workspace, at rest or moving.
+/// `count` states of the rig within its workspace, at rest or moving.
 inline std::vector<Kinematics> random_kinematics(const PlanarRrr& robot, int count,
                                                  double share_of_velocity = 1.0, unsigned seed = 1) {
   std::vector<Kinematics> all;

@@ -7,7 +7,7 @@
 #include "systems/foundation/setup_error.h"
 #include "tests/support/allocations.h"
 #include "tests/support/answer_of_filters.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -28,7 +28,7 @@ WhitenedDetectorSettings settings() {
 class WhitenedDetectorTest : public testing::Test {
  protected:
   explicit WhitenedDetectorTest(const WhitenedDetectorSettings& by = settings())
-      : block_(builder_.add<WhitenedDetector>("detector", test::planar_bench(), by)) {}
+      : block_(builder_.add<WhitenedDetector>("detector", test::planar_rig(), by)) {}
 
   const ContactDetection& see(double effort, Time late = 0ms) {
     const Time now = ticking_.now();
@@ -249,17 +249,17 @@ TEST_F(WhitenedDetectorTest, SetsALateEstimateBesideTheLoadOfItsTime) {
 
 TEST_F(WhitenedDetectorTest, LatchesUntilTheReset) {
   settle();
-  const ContactDetection noticed = see(1.0);
-  EXPECT_EQ(noticed.level, ContactLevel::reaction);
-  EXPECT_EQ(noticed.wrench_in_base, estimate_.wrench_in_base);
+  const ContactDetection detected = see(1.0);
+  EXPECT_EQ(detected.level, ContactLevel::reaction);
+  EXPECT_EQ(detected.wrench_in_base, estimate_.wrench_in_base);
   for (int k = 0; k < 300; ++k) see(0.0);
   EXPECT_EQ(see(0.0).level, ContactLevel::reaction);
-  EXPECT_EQ(see(0.0).detected, noticed.detected);
+  EXPECT_EQ(see(0.0).detected, detected.detected);
   reset_now_.reset = true;
   EXPECT_EQ(see(0.0).level, ContactLevel::none);
 }
 
-TEST_F(WhitenedDetectorTest, CallsHardWhatIsNoticedAndAboveTheHardThreshold) {
+TEST_F(WhitenedDetectorTest, CallsHardWhatIsDetectedAndAboveTheHardThreshold) {
   settle();
   estimate_.wrench_in_base[1] = -61.0;
   EXPECT_EQ(see(0.0).level, ContactLevel::none) << "a large wrench that is expected is no contact";
@@ -315,7 +315,7 @@ TEST(WhitenedDetectorSettings, AreRefusedWhereFiltersHaveNoRateOrAreTooMany) {
   WhitenedDetectorSettings wrong = settings();
   wrong.tracking.answer = {.filters = 4, .rate = 0.0};
   try {
-    const WhitenedDetector detector(test::planar_bench(), wrong);
+    const WhitenedDetector detector(test::planar_rig(), wrong);
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 2U);
@@ -324,7 +324,7 @@ TEST(WhitenedDetectorSettings, AreRefusedWhereFiltersHaveNoRateOrAreTooMany) {
 
 TEST(WhitenedDetectorSettings, AreRefusedWhereAThresholdOrTheNoiseIsMissing) {
   try {
-    const WhitenedDetector detector(test::planar_bench(), {});
+    const WhitenedDetector detector(test::planar_rig(), {});
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 4U);
@@ -335,7 +335,7 @@ TEST(WhitenedDetectorSettings, AreRefusedWhereAnOnsetIsNotCalibrated) {
   WhitenedDetectorSettings wrong = settings();
   wrong.onset = {.threshold = 0.0, .course = {.prediction = {nan, 0.0, 0.0, 0.0}, .innovation = 0.0}};
   try {
-    const WhitenedDetector detector(test::planar_bench(), wrong);
+    const WhitenedDetector detector(test::planar_rig(), wrong);
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 3U);

@@ -14,7 +14,7 @@ const PlatformVector none = PlatformVector::Zero(3);
 
 // Against draws: what torques that err make the wrench of a robot err by, [spec] F = J^T tau.
 TEST(WrenchUncertainty, OfDrivesIsThatOfDrawnErrors) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics at = test::at_home(*robot);
   const WrenchUncertainty uncertainty{.drive_torque = Eigen::Vector3d(0.3, 0.1, 0.5)};
   const PlatformMatrix S = uncertainty.covariance(space, at, none);
@@ -32,7 +32,7 @@ TEST(WrenchUncertainty, OfDrivesIsThatOfDrawnErrors) {
 }
 
 TEST(WrenchUncertainty, GrowsWithTheForceHoweverItIsKnown) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics at = test::at_home(*robot);
   const PlatformVector F{{30.0, 40.0, 1.0}};
   const Eigen::Vector3d grown(6.25, 6.25, 0.04);  // 0.05 x 50 N, and 0.004 m x 50 N, squared
@@ -44,7 +44,7 @@ TEST(WrenchUncertainty, GrowsWithTheForceHoweverItIsKnown) {
 }
 
 TEST(WrenchUncertainty, IsThatOfForceAndMomentWhereThePoseOrTheDrivesAreNotKnown) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics at = test::at_home(*robot);
   const WrenchUncertainty isotropic, of_drives{.drive_torque = Eigen::Vector3d::Ones()},
       of_another{.drive_torque = Eigen::Vector2d::Ones()};
@@ -55,7 +55,7 @@ TEST(WrenchUncertainty, IsThatOfForceAndMomentWhereThePoseOrTheDrivesAreNotKnown
 }
 
 TEST(WrenchUncertainty, NeverAllocates) {
-  const auto robot = test::touched_bench();
+  const auto robot = test::touched_rig();
   const Kinematics at = test::at_home(*robot);
   const WrenchUncertainty uncertainty{.drive_torque = Eigen::Vector3d::Ones()};
   const test::AllocationCounter allocations;

@@ -18,9 +18,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The planar bench, held at home by its drives against a push on a link.
+/// The planar rig, held at home by its drives against a push on a link.
 struct Held {
-  std::shared_ptr<const PlanarRrr> robot = test::touched_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::touched_rig();
   std::shared_ptr<const LegBases> bases =
       std::make_shared<const PlanarLegBases>(robot, std::array<double, 3>{1.1, 1.1, 1.1});
   Kinematics at = test::at_home(*robot);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "systems/framework/random.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/smooth_trajectory.h"
 #include "tests/support/ticking.h"
 
@@ -50,7 +50,7 @@ class DirectMethodTest : public testing::Test {
     return ticking_.get(block_.wrench);
   }
 
-  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench(BenchFriction::simulation);
+  std::shared_ptr<const PlanarRrr> robot_ = test::planar_rig(RigFriction::simulation);
   DiagramBuilder builder_;
   DirectMethod& block_ = builder_.add<DirectMethod>("block", robot_);
   InputPort<PlatformMotion> platform_ = builder_.export_input("platform", block_.platform);

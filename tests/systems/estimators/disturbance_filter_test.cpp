@@ -22,8 +22,8 @@
 namespace flinch {
 namespace {
 
-std::shared_ptr<const PlanarRrr> bench() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::simulation));
+std::shared_ptr<const PlanarRrr> rig() {
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::simulation));
 }
 
 /// Adds noise to the encoders.
@@ -52,7 +52,7 @@ class Noise final : public System {
 class Chain {
  public:
   Chain(const PlatformVector& push, double encoder_noise) {
-    const auto robot = bench();
+    const auto robot = rig();
     auto& plant = test::add_moving_robot(builder_, robot, push, 300ms);
     auto& noise = builder_.add<Noise>("noise", encoder_noise);
     auto& velocity = builder_.add<VelocityFilter>("velocity", robot);
@@ -149,7 +149,7 @@ class Held {
   PlatformVector velocity() const { return filter_.followed().velocity; }
 
  private:
-  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench(BenchFriction::test_bench);
+  std::shared_ptr<const PlanarRrr> robot_ = test::planar_rig(RigFriction::test_rig);
   RandomGenerator random_;
   test::ToldDisturbanceFilter filter_{robot_};
 };
@@ -192,7 +192,7 @@ TEST(DisturbanceFilter, AsksForSettingsThatArePositive) {
   settings.pole = 0.0;
   settings.encoder_deviation = std::numeric_limits<double>::quiet_NaN();
   try {
-    const DisturbanceFilter filter(bench(), settings);
+    const DisturbanceFilter filter(rig(), settings);
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 2U);

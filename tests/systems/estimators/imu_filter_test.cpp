@@ -22,7 +22,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::shared_ptr<const ParallelRobot> hexapod() { return std::make_shared<Hexapod>(hexapod_robot()); }
 std::shared_ptr<const ParallelRobot> planar() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
 }
 
 /// A motion known in closed form: sines along the axes, and one about an axis that stands still.
@@ -47,9 +47,9 @@ struct Motion {
 
 const ImuBias bias{true, {0.02, -0.03, 0.05}, {0.3, -0.2, 0.39}};
 
-class FilterBench {
+class FilterRig {
  public:
-  FilterBench(const std::shared_ptr<const ParallelRobot>& robot, const ImuFilterSettings& settings)
+  FilterRig(const std::shared_ptr<const ParallelRobot>& robot, const ImuFilterSettings& settings)
       : robot_(robot),
         block(builder_.add<ImuFilter>("filter", robot, settings)),
         platform_(builder_.export_input("platform", block.platform)),
@@ -122,11 +122,11 @@ class FilterBench {
 TEST(ImuFilter, TellsTheAccelerationOfAnyMechanismInSpiteOfBiasAndDelay) {
   for (const auto& robot : {hexapod(), planar()}) {
     for (const Time delay : {0ms, 4ms}) {
-      FilterBench bench(robot, extended_imu_filter());
-      const TwoKinds largest = bench.largest_error(delay);
+      FilterRig rig(robot, extended_imu_filter());
+      const TwoKinds largest = rig.largest_error(delay);
       EXPECT_LT(largest.translation, 0.05);  // of 7 m/s^2
       EXPECT_LT(largest.rotation, 0.3);      // of 6.4 rad/s^2
-      const ImuBias& found = bench.ticking.get(bench.block.bias);
+      const ImuBias& found = rig.ticking.get(rig.block.bias);
       ASSERT_TRUE(found.valid);
       EXPECT_LT((found.gyroscope - bias.gyroscope).norm(), 2e-3);
       EXPECT_LT((found.accelerometer - bias.accelerometer).norm(), 0.02);
@@ -136,8 +136,8 @@ TEST(ImuFilter, TellsTheAccelerationOfAnyMechanismInSpiteOfBiasAndDelay) {
 
 TEST(UnscentedImuFilter, TellsTheAccelerationOfAnyMechanismInSpiteOfBiasAndDelay) {
   for (const auto& robot : {hexapod(), planar()}) {
-    FilterBench bench(robot, unscented_imu_filter());
-    const TwoKinds largest = bench.largest_error(4ms);
+    FilterRig rig(robot, unscented_imu_filter());
+    const TwoKinds largest = rig.largest_error(4ms);
     EXPECT_LT(largest.translation, 0.05);
     EXPECT_LT(largest.rotation, 0.3);
   }
@@ -151,7 +151,7 @@ double difference_by_points(const std::shared_ptr<const ParallelRobot>& robot, d
     each->initial_pose.rotation = orientation_deviation * orientation_deviation;
     each->noise.encoder_pose.rotation = each->initial_pose.rotation;
   }
-  FilterBench one(robot, extended), other(robot, unscented);
+  FilterRig one(robot, extended), other(robot, unscented);
   double largest = 0.0;
   for (int k = 0; k < 300; ++k) {
     const PlatformAcceleration a = one.see(), b = other.see();
@@ -177,31 +177,31 @@ TEST(UnscentedImuFilter, IsTheExtendedOneWhereThatIsSureOfItsOrientation) {
 
 TEST(UnscentedImuFilter, DoesNotAllocate) {
   for (const auto& robot : {hexapod(), planar()}) {
-    FilterBench bench(robot, unscented_imu_filter());
-    for (int k = 0; k < 20; ++k) bench.see();
+    FilterRig rig(robot, unscented_imu_filter());
+    for (int k = 0; k < 20; ++k) rig.see();
     const test::AllocationCounter allocations;
-    for (int k = 0; k < 20; ++k) bench.see();
+    for (int k = 0; k < 20; ++k) rig.see();
     EXPECT_EQ(allocations.count(), 0);
   }
 }
 
 TEST(ImuFilter, FollowsTheIndicationOfItsTimeBetweenTwoPoses) {
-  FilterBench bench(planar(), extended_imu_filter());
-  EXPECT_LT(bench.largest_error(3500us).translation, 0.05);
+  FilterRig rig(planar(), extended_imu_filter());
+  EXPECT_LT(rig.largest_error(3500us).translation, 0.05);
 }
 
 TEST(ImuFilter, ErrsByBiasAndDelayAsPrinted) {
-  FilterBench bench(planar(), published_imu_filter());
-  EXPECT_GT(bench.largest_error(4ms).translation, 0.3);
+  FilterRig rig(planar(), published_imu_filter());
+  EXPECT_GT(rig.largest_error(4ms).translation, 0.3);
 }
 
 /// Mean of what the monitor tells where the sensors have so many times the noise that the filter was told of.
 double mean_innovation(double noise) {
-  FilterBench bench(planar(), extended_imu_filter());
-  bench.imu_noise = bench.pose_noise = noise;
+  FilterRig rig(planar(), extended_imu_filter());
+  rig.imu_noise = rig.pose_noise = noise;
   double mean = 0.0;
   for (int k = 0; k < 6000; ++k) {
-    const PlatformAcceleration& seen = bench.see();
+    const PlatformAcceleration& seen = rig.see();
     if (k >= 1000) mean += seen.health.innovation / 5000.0;
   }
   return mean;
@@ -215,7 +215,7 @@ TEST(ImuFilter, HasInnovationsNoLargerThanItExpectsUnlessTheNoiseIs) {
 }
 
 TEST(ImuFilter, SeesAllItsStatesWhereItHasThePose) {
-  FilterBench published(planar(), published_imu_filter()), extended(planar(), extended_imu_filter());
+  FilterRig published(planar(), published_imu_filter()), extended(planar(), extended_imu_filter());
   for (int k = 0; k < 300; ++k) published.see(), extended.see();
   EXPECT_GT(published.ticking.get(published.block.observability), 1e-3);
   EXPECT_GT(extended.ticking.get(extended.block.observability), 1e-8);
@@ -224,40 +224,40 @@ TEST(ImuFilter, SeesAllItsStatesWhereItHasThePose) {
 }
 
 TEST(ImuFilter, DoesNotBelieveAnImuThatContradictsTheEncoders) {
-  FilterBench bench(planar(), extended_imu_filter());
-  for (int k = 0; k < 600; ++k) bench.see();
-  ASSERT_TRUE(bench.ticking.get(bench.block.acceleration).valid);
+  FilterRig rig(planar(), extended_imu_filter());
+  for (int k = 0; k < 600; ++k) rig.see();
+  ASSERT_TRUE(rig.ticking.get(rig.block.acceleration).valid);
   int believed = 0;
   for (int k = 0; k < 100; ++k) {
-    ImuReading wrong = bench.reading(bench.ticking.now());
+    ImuReading wrong = rig.reading(rig.ticking.now());
     wrong.specific_force = -wrong.specific_force;
-    if (bench.see(wrong).valid) ++believed;
+    if (rig.see(wrong).valid) ++believed;
   }
   EXPECT_LT(believed, 20);
-  EXPECT_FALSE(bench.ticking.get(bench.block.acceleration).valid);
+  EXPECT_FALSE(rig.ticking.get(rig.block.acceleration).valid);
 }
 
 TEST(ImuFilter, IsNotValidInATickWithoutTheImuAndGoesOnAfterwards) {
-  FilterBench bench(planar(), extended_imu_filter());
-  for (int k = 0; k < 600; ++k) bench.see();
-  for (int k = 0; k < 2; ++k) EXPECT_FALSE(bench.see(ImuReading()).valid);
-  EXPECT_TRUE(bench.see().valid);
-  for (int k = 0; k < 5; ++k) EXPECT_FALSE(bench.see(ImuReading()).valid);
+  FilterRig rig(planar(), extended_imu_filter());
+  for (int k = 0; k < 600; ++k) rig.see();
+  for (int k = 0; k < 2; ++k) EXPECT_FALSE(rig.see(ImuReading()).valid);
+  EXPECT_TRUE(rig.see().valid);
+  for (int k = 0; k < 5; ++k) EXPECT_FALSE(rig.see(ImuReading()).valid);
   for (int k = 0; k < 400; ++k) {  // it begins anew
-    const bool valid = bench.see().valid;
+    const bool valid = rig.see().valid;
     ASSERT_EQ(valid, k >= 200) << k;
   }
 }
 
 TEST(ImuFilter, KeepsNothingThatIsNotANumber) {
-  FilterBench bench(planar(), extended_imu_filter());
-  for (int k = 0; k < 600; ++k) bench.see();
-  ImuReading wrong = bench.reading(bench.ticking.now());
+  FilterRig rig(planar(), extended_imu_filter());
+  for (int k = 0; k < 600; ++k) rig.see();
+  ImuReading wrong = rig.reading(rig.ticking.now());
   wrong.angular_velocity.x() = nan;
-  EXPECT_FALSE(bench.see(wrong).valid);
+  EXPECT_FALSE(rig.see(wrong).valid);
   wrong.angular_velocity.x() = 1e300;
-  EXPECT_FALSE(bench.see(wrong).valid);
-  const PlatformAcceleration& seen = bench.see();
+  EXPECT_FALSE(rig.see(wrong).valid);
+  const PlatformAcceleration& seen = rig.see();
   EXPECT_TRUE(seen.valid && seen.acceleration.allFinite() && seen.standard_deviation.allFinite());
 }
 

@@ -9,7 +9,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/robot/forward_dynamics.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -68,7 +68,7 @@ class ImuResidualTest : public testing::Test {
     moves_ = true;
   }
 
-  std::shared_ptr<const PlanarRrr> robot_ = test::planar_bench();
+  std::shared_ptr<const PlanarRrr> robot_ = test::planar_rig();
   DiagramBuilder builder_;
   ImuResidual& block_ = builder_.add<ImuResidual>("block", robot_, ImuResidualSettings{});
   InputPort<PlatformMotion> platform_ = builder_.export_input("platform", block_.platform);

@@ -125,7 +125,7 @@ TEST(MomentumKalmanFilter, SettlesInFiveOfItsTimeConstants) {
 }
 
 TEST(MomentumKalmanFilter, AsksForNoiseThatIsPositive) {
-  const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
   MomentumKalmanFilterSettings settings;
   settings.translation.force_density = 0.0;
   settings.rotation.momentum_deviation = std::numeric_limits<double>::quiet_NaN();

@@ -1,4 +1,4 @@
-// The momentum observer on the whole robot, moving as fast as the bench does.
+// The momentum observer on the whole robot, moving as fast as the rig does.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,8 +24,8 @@ namespace {
 const PlatformVector contact{{25.0, -40.0, 3.0}};
 const PlatformVector no_contact = PlatformVector::Zero(3);
 
-std::shared_ptr<const PlanarRrr> bench(BenchGeometry geometry = BenchGeometry::individual) {
-  return std::make_shared<PlanarRrr>(bench_robot(geometry, BenchFriction::simulation));
+std::shared_ptr<const PlanarRrr> rig(RigGeometry geometry = RigGeometry::individual) {
+  return std::make_shared<PlanarRrr>(rig_robot(geometry, RigFriction::simulation));
 }
 
 MomentumObserverSettings observer_settings(double gain, TorqueTiming timing, Time period = 1ms) {
@@ -81,7 +81,7 @@ struct ExactChain {
 
 /// Largest difference in one second between the estimate and its law, 1 - exp(-k_o t) of the true wrench.
 double largest_error(double gain, Time period) {
-  ExactChain chain(bench(), gain, period);
+  ExactChain chain(rig(), gain, period);
   double largest = 0.0;
   while (chain.ticking.now() < 1s) {
     const double t = to_seconds(chain.ticking.now());
@@ -109,8 +109,8 @@ TEST(MomentumObserverOnARobot, FeelsTheSameAfterAThirdOfATurn) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() = Eigen::Rotation2D<double>(turn).toRotationMatrix();
 
-  ExactChain chain(bench(BenchGeometry::nominal), 135.0, 1ms);
-  ExactChain turned(bench(BenchGeometry::nominal), 135.0, 1ms);
+  ExactChain chain(rig(RigGeometry::nominal), 135.0, 1ms);
+  ExactChain turned(rig(RigGeometry::nominal), 135.0, 1ms);
   while (chain.ticking.now() < 1s) {
     const test::SmoothTrajectory motion(to_seconds(chain.ticking.now()));
     test::SmoothTrajectory turned_motion = motion;
@@ -142,7 +142,7 @@ class ExactMotion final : public System {
 /// Largest force that an observer with exact velocities sees while the robot moves freely, its torque held
 /// from tick to tick.
 double residual_with_exact_velocity(TorqueTiming timing) {
-  const auto robot = bench();
+  const auto robot = rig();
   DiagramBuilder builder("exact velocity");
   auto& plant = test::add_moving_robot(builder, robot, no_contact, 0ms);
   auto& motion = builder.add<ExactMotion>("motion");
@@ -212,7 +212,7 @@ class MeasuredChain {
  public:
   explicit MeasuredChain(const ChainSettings& settings, const PlatformVector& wrench = no_contact,
                          Time begin = 0ms) {
-    const auto robot = bench();
+    const auto robot = rig();
     const DriveTorqueSettings drives{JointVector::Ones(3), {}};
     DiagramBuilder builder("measured");
     auto& plant = test::add_moving_robot(builder, robot, wrench, begin);

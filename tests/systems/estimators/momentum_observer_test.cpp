@@ -20,8 +20,8 @@ constexpr double T = 1e-3;
 const PlatformVector gains{{20.0, 135.0, 500.0}};
 const PlatformVector zero = PlatformVector::Zero(3);
 
-std::shared_ptr<const PlanarRrr> bench() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+std::shared_ptr<const PlanarRrr> rig() {
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
 }
 
 /// What an observer sees of a rigid body of constant inertia, driven directly: F_a = torque.
@@ -49,7 +49,7 @@ struct Inputs {
 
 struct Observer {
   explicit Observer(TorqueTiming timing = TorqueTiming::sampled, const PlatformVector& gain = gains)
-      : block(builder.add<MomentumObserver>("observer", bench(), MomentumObserverSettings{gain, timing, {}})),
+      : block(builder.add<MomentumObserver>("observer", rig(), MomentumObserverSettings{gain, timing, {}})),
         platform(builder.export_input("platform", block.platform)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
         dynamics(builder.export_input("dynamics", block.dynamics)),
@@ -313,15 +313,15 @@ TEST(MomentumObserver, DoesNotAllocate) {
 }
 
 TEST(MomentumObserver, TakesTwentyPerSecondWhereNoGainIsGiven) {
-  const MomentumObserver given(bench(), {PlatformVector::Constant(3, 20.0), TorqueTiming::sampled, {}});
-  const MomentumObserver left_out(bench(), {});
+  const MomentumObserver given(rig(), {PlatformVector::Constant(3, 20.0), TorqueTiming::sampled, {}});
+  const MomentumObserver left_out(rig(), {});
   EXPECT_EQ(left_out.gain(), given.gain());
 }
 
 TEST(MomentumObserver, AsksForOnePositiveGainACoordinate) {
   for (const PlatformVector& gain : {PlatformVector(PlatformVector::Constant(2, 20.0)),
                                      PlatformVector{{20.0, 0.0, 20.0}}, PlatformVector{{20.0, nan, 20.0}}}) {
-    EXPECT_THROW(MomentumObserver(bench(), MomentumObserverSettings{gain, TorqueTiming::sampled, {}}),
+    EXPECT_THROW(MomentumObserver(rig(), MomentumObserverSettings{gain, TorqueTiming::sampled, {}}),
                  SetupError);
   }
 }

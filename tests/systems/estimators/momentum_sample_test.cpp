@@ -15,7 +15,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// A complete set of inputs.
 struct Inputs {
   Inputs() {
-    const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::simulation));
+    const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::simulation));
     platform = {5ms, PlatformMotion::Status::valid, PlatformVector{{0.05, -0.02, 0.1}},
                 PlatformVector{{0.8, 0.3, -1.0}}};
     robot.kinematics(platform.pose, platform.velocity, kinematics);
@@ -45,7 +45,7 @@ TEST(MomentumSample, HoldsMomentumAndBeta) {
 // d/dt (M dx) = F_a + F_ext - beta is the equation of motion written differently: compare with M ddx + C dx +
 // ... .
 TEST(MomentumSample, BetaTurnsTheEquationOfMotionIntoOneOfMomentum) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::simulation));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::simulation));
   const Inputs inputs;
   const Eigen::Vector3d ddx(3.0, -5.0, 8.0);
   const Eigen::Vector3d x = inputs.platform.pose;

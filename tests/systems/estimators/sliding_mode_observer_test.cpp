@@ -61,7 +61,7 @@ std::ptrdiff_t samples_until(const std::vector<double>& seen, double threshold) 
   return std::find_if(seen.begin(), seen.end(), [&](double F) { return F >= threshold; }) - seen.begin() + 1;
 }
 
-constexpr Ramp impact{2000.0, 80.0};  // as on the bench: 80 N within 40 ms
+constexpr Ramp impact{2000.0, 80.0};  // as on the rig: 80 N within 40 ms
 
 TEST(SlidingModeObserver, FollowsAForceThatChangesNoFasterThanItWasToldWithoutLag) {
   const auto seen = estimates(SlidingModeMethod(2, {}), {2000.0, 1e9}, 300);
@@ -132,7 +132,7 @@ TEST(SlidingModeObserver, BridgesMissingSamplesWithMoreSubsteps) {
 }
 
 TEST(SlidingModeObserver, AsksForSettingsThatArePositive) {
-  const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
   SlidingModeObserverSettings settings;
   settings.force_rate = std::numeric_limits<double>::infinity();
   settings.substeps = 0;

@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 
 #include "systems/foundation/setup_error.h"
 #include "tests/support/file_bytes.h"
@@ -17,6 +18,36 @@ namespace {
 
 using test::bytes_of;
 using test::TemporaryFile;
+
+/// Values of three blocks, the last of them not full.
+Recording three_blocks() {
+  Recording recording = test::honest_recording();
+  const std::size_t count = 2 * Recording::block + 5;
+  recording.time_ns.resize(count);
+  for (std::size_t k = 0; k < count; ++k) recording.time_ns[k] = static_cast<std::int64_t>(k) * 1'000'000;
+  for (Signal& signal : recording.signals) {
+    signal.rows.resize(count * signal.layout.numbers);
+    for (std::size_t i = 0; i < signal.rows.size(); ++i)
+      signal.rows[i] = signal.rows[i % (test::honest_samples * signal.layout.numbers)];
+  }
+  return recording;
+}
+
+TEST(WriteRecording, WritesOneThatWasOnlyOpenedAsItStandsInItsFile) {
+  const TemporaryFile file, copy;
+  const Recording whole = three_blocks();
+  write_recording(whole, file.path());
+  write_recording(open_recording(file.path()), copy.path());
+  const Recording again = read_recording(copy.path());
+  ASSERT_EQ(again.time_ns, whole.time_ns);
+  ASSERT_EQ(again.signals.size(), whole.signals.size());
+  for (std::size_t i = 0; i < whole.signals.size(); ++i) {
+    const auto& expected = whole.signals[i].rows;
+    const auto& got = again.signals[i].rows;
+    ASSERT_EQ(got.size(), expected.size());
+    EXPECT_EQ(std::memcmp(got.data(), expected.data(), got.size() * sizeof(got[0])), 0);
+  }
+}
 
 TEST(FullDisk, KeepsTheOlderRecordingWhateverFits) {
   const TemporaryFile file;

@@ -11,7 +11,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -27,7 +27,7 @@ const JointMotion moving{.acquired = {},
 
 struct Law {
   explicit Law(const ControlledStopSettings& settings = {.damping = 10.0})
-      : block(builder.add<ControlledStop>("stop", test::planar_bench(), settings)),
+      : block(builder.add<ControlledStop>("stop", test::planar_rig(), settings)),
         zero_gravity(builder.export_input("zero_gravity", block.zero_gravity)),
         joints(builder.export_input("joints", block.joints)) {}
 
@@ -102,7 +102,7 @@ double hand_force(const ParallelRobot& robot, const Eigen::Vector3d& pose, Eigen
 
 TEST(ControlledStop, LeavesARobotThatCanBePushedByHand) {
   constexpr double speed = 0.1;  // [m/s]
-  const auto robot = test::planar_bench(BenchFriction::test_bench);
+  const auto robot = test::planar_rig(RigFriction::test_rig);
   Law law({.share_at_rest = 0.25});
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -129,10 +129,10 @@ TEST(ControlledStop, NeverAllocates) {
 }
 
 TEST(ControlledStop, RefusesADampingThatIsNotPositive) {
-  EXPECT_THROW(ControlledStop(test::planar_bench(), {.damping = 0.0}), SetupError);
-  EXPECT_THROW(ControlledStop(test::planar_bench(), {.damping = nan}), SetupError);
-  EXPECT_THROW(ControlledStop(test::planar_bench(), {.whole_from = 0.0}), SetupError);
-  EXPECT_THROW(ControlledStop(test::planar_bench(), {.share_at_rest = 0.0}), SetupError);
+  EXPECT_THROW(ControlledStop(test::planar_rig(), {.damping = 0.0}), SetupError);
+  EXPECT_THROW(ControlledStop(test::planar_rig(), {.damping = nan}), SetupError);
+  EXPECT_THROW(ControlledStop(test::planar_rig(), {.whole_from = 0.0}), SetupError);
+  EXPECT_THROW(ControlledStop(test::planar_rig(), {.share_at_rest = 0.0}), SetupError);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -22,7 +22,7 @@ TEST(GatedMotion, IsThereInTheModesInWhichLimitsAreKept) {
 }
 
 TEST(GatedMotion, HandsTheMotionOnFromTheTickOfTheContact) {
-  const test::Posture posture(*test::planar_bench(), Eigen::Vector3d(0.1, 0.0, 0.0));
+  const test::Posture posture(*test::planar_rig(), Eigen::Vector3d(0.1, 0.0, 0.0));
   DiagramBuilder builder("test", 1ms);
   auto& block = builder.add<GatedMotion>("kept", Use::after_contact);
   const auto motion = builder.export_input("motion", block.motion);

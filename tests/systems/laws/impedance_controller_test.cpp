@@ -12,13 +12,13 @@
 #include "systems/framework/runge_kutta.h"
 #include "systems/framework/simulator.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
 namespace {
 
-ImpedanceSettings bench_impedance() { return complete({}, ConfigurationSpace::Kind::planar_pose); }
+ImpedanceSettings rig_impedance() { return complete({}, ConfigurationSpace::Kind::planar_pose); }
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -33,9 +33,9 @@ PlatformReference rest(const PlatformVector& pose) {
 }
 
 struct Law {
-  explicit Law(const ImpedanceSettings& settings = bench_impedance(),
-               BenchFriction friction = BenchFriction::test_bench)
-      : robot(test::planar_bench(friction)),
+  explicit Law(const ImpedanceSettings& settings = rig_impedance(),
+               RigFriction friction = RigFriction::test_rig)
+      : robot(test::planar_rig(friction)),
         block(builder.add<ImpedanceController>("impedance", robot, settings)),
         reference(builder.export_input("reference", block.reference)),
         kinematics(builder.export_input("kinematics", block.kinematics)),
@@ -65,7 +65,7 @@ struct Law {
 TEST(ImpedanceController, MakesTheRobotAMassSpringDamper) {
   RandomGenerator random(11);
   Law law;
-  const PlatformMatrix K_d = bench_impedance().stiffness.asDiagonal();
+  const PlatformMatrix K_d = rig_impedance().stiffness.asDiagonal();
   for (int trial = 0; trial < 300; ++trial) {
     const Eigen::Vector3d pose = any(random, {0.15, 0.15, 0.3}), velocity = any(random, {1.0, 1.0, 2.0});
     const Eigen::Vector3d F_ext = any(random, {100.0, 100.0, 5.0});
@@ -86,7 +86,7 @@ TEST(ImpedanceController, MakesTheRobotAMassSpringDamper) {
 }
 
 TEST(ImpedanceController, LeavesFrictionToTheSpringWhenAskedTo) {
-  ImpedanceSettings settings = bench_impedance();
+  ImpedanceSettings settings = rig_impedance();
   settings.compensate_friction = false;
   Law with, without(settings);
   const test::Posture posture(*with.robot, Eigen::Vector3d(0.05, 0.02, 0.1), Eigen::Vector3d(0.3, -0.4, 0.5));
@@ -107,7 +107,7 @@ TEST(ImpedanceController, TurnsTheShorterWayRound) {
 
 /// A soft orientation makes the factorisation indefinite; the other design takes over.
 TEST(ImpedanceController, FallsBackToADampingThatIsPositiveDefinite) {
-  ImpedanceSettings settings = bench_impedance();
+  ImpedanceSettings settings = rig_impedance();
   settings.stiffness[2] = 0.01;
   Law stiff, soft(settings);
   RandomGenerator random(5);
@@ -156,7 +156,7 @@ class PushedPlant final : public System {
 
 struct Loop {
   Loop(const ImpedanceSettings& settings, const Eigen::Vector3d& start, const Eigen::Vector3d& wrench) {
-    const auto robot = test::planar_bench();
+    const auto robot = test::planar_rig();
     DiagramBuilder builder("loop");
     auto& plant = builder.add<PushedPlant>("plant", robot, start, wrench);
     auto& model = builder.add<RobotModel>("model", robot);
@@ -207,27 +207,25 @@ TEST_P(ImpedanceOfStiffness, GivesWayByForceOverStiffness) {
   EXPECT_NEAR(last[2], 0.5 / 85.0, 1e-8);
 }
 
-/// At home the nominal bench has a diagonal M_x, so that small errors decay as (1 + w t) exp(-w t), w^2 = k /
+/// At home the nominal rig has a diagonal M_x, so that small errors decay as (1 + w t) exp(-w t), w^2 = k /
 /// m.
 TEST(ImpedanceController, DecaysAsACriticallyDampedOscillator) {
   const Eigen::Vector3d start(1e-6, -2e-6, 3e-6);
-  const test::Posture home(*test::planar_bench());
-  const PlatformVector w =
-      bench_impedance().stiffness.cwiseQuotient(home.dynamics.M_x.diagonal()).cwiseSqrt();
+  const test::Posture home(*test::planar_rig());
+  const PlatformVector w = rig_impedance().stiffness.cwiseQuotient(home.dynamics.M_x.diagonal()).cwiseSqrt();
   double largest = 0.0;
-  Loop(bench_impedance(), start, Eigen::Vector3d::Zero())
-      .run(500ms, [&](double t, const PlatformVector& pose) {
-        const Eigen::Array3d wt = t * Eigen::Array3d(w);
-        const Eigen::Vector3d expected = start.array() * (1.0 + wt) * (-wt).exp();
-        largest = std::max(
-            largest, (pose - PlatformVector(expected)).cwiseAbs().cwiseQuotient(start.cwiseAbs()).maxCoeff());
-      });
+  Loop(rig_impedance(), start, Eigen::Vector3d::Zero()).run(500ms, [&](double t, const PlatformVector& pose) {
+    const Eigen::Array3d wt = t * Eigen::Array3d(w);
+    const Eigen::Vector3d expected = start.array() * (1.0 + wt) * (-wt).exp();
+    largest = std::max(
+        largest, (pose - PlatformVector(expected)).cwiseAbs().cwiseQuotient(start.cwiseAbs()).maxCoeff());
+  });
   EXPECT_LT(largest, 1e-4);
 }
 
 /// With damping ratios other than one: the linear oscillator's overshoot exp(-pi xi / sqrt(1 - xi^2)).
 TEST(ImpedanceController, OvershootsAsItsDampingRatioSays) {
-  ImpedanceSettings settings = bench_impedance();
+  ImpedanceSettings settings = rig_impedance();
   settings.damping_ratio = PlatformVector::Constant(3, 0.5);
   double lowest = 0.0;
   Loop(settings, Eigen::Vector3d(1e-6, 0, 0), Eigen::Vector3d::Zero())
@@ -274,9 +272,9 @@ TEST(ImpedanceController, IsNotValidOnNumbersThatAreNone) {
 }
 
 TEST(ImpedanceController, NeverAllocates) {
-  ImpedanceSettings soft = bench_impedance();
+  ImpedanceSettings soft = rig_impedance();
   soft.stiffness[2] = 0.01;
-  for (const ImpedanceSettings& settings : {bench_impedance(), soft}) {
+  for (const ImpedanceSettings& settings : {rig_impedance(), soft}) {
     Law law(settings);
     const test::Posture posture(*law.robot, Eigen::Vector3d(0.19, 0.15, 0.2), Eigen::Vector3d(1.0, 1.0, 1.0));
     const PlatformReference desired = rest(Eigen::Vector3d::Zero());
@@ -288,20 +286,20 @@ TEST(ImpedanceController, NeverAllocates) {
 }
 
 TEST(ImpedanceController, IsStiffAndCriticallyDampedWhereNothingElseIsSaid) {
-  EXPECT_EQ(bench_impedance().stiffness, Eigen::Vector3d(2000.0, 2000.0, 85.0));
-  EXPECT_EQ(bench_impedance().damping_ratio, Eigen::Vector3d::Ones());
+  EXPECT_EQ(rig_impedance().stiffness, Eigen::Vector3d(2000.0, 2000.0, 85.0));
+  EXPECT_EQ(rig_impedance().damping_ratio, Eigen::Vector3d::Ones());
   const ImpedanceSettings in_space = complete({}, ConfigurationSpace::Kind::spatial_pose);
   EXPECT_EQ(in_space.stiffness, (PlatformVector{{2000.0, 2000.0, 2000.0, 85.0, 85.0, 85.0}}));
 }
 
 TEST(ImpedanceController, RefusesSettingsThatDoNotFit) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   EXPECT_THROW(ImpedanceController(robot, {.stiffness = PlatformVector::Ones(2), .damping_ratio = {}}),
                SetupError);
-  ImpedanceSettings settings = bench_impedance();
+  ImpedanceSettings settings = rig_impedance();
   settings.stiffness[0] = -1.0;
   EXPECT_THROW(ImpedanceController(robot, settings), SetupError);
-  settings = bench_impedance();
+  settings = rig_impedance();
   settings.damping_ratio[2] = 0.0;
   EXPECT_THROW(ImpedanceController(robot, settings), SetupError);
   settings.damping_ratio[2] = nan;

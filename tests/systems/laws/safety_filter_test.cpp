@@ -12,7 +12,7 @@
 #include "systems/robot/forward_dynamics.h"
 #include "systems/robot/link_segments.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -28,7 +28,7 @@ SafetyFilterSettings always() {
   return settings;
 }
 
-/// Those of [SafePR] and of the bench.
+/// Those of [SafePR] and of the rig.
 SafetyFilterSettings strict_settings() {
   SafetyFilterSettings settings = always();
   settings.limits.workspace = {.centre = {},
@@ -115,7 +115,7 @@ struct Kept {
     return block.commanded;
   }
 
-  std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::planar_rig();
   DiagramBuilder builder;
   SafetyFilter& block;
   InputPort<TorqueCommand> request;
@@ -322,10 +322,10 @@ TEST(SafetyFilter, NeverAllocates) {
 TEST(SafetyFilter, RefusesLimitsThatTheHomePoseExceeds) {
   SafetyFilterSettings settings = strict_settings();
   settings.limits.max_condition_number = 2.0;
-  EXPECT_THROW(SafetyFilter(test::planar_bench(), settings), SetupError);
+  EXPECT_THROW(SafetyFilter(test::planar_rig(), settings), SetupError);
   settings = strict_settings();
   settings.braking.distance = 0.0;
-  EXPECT_THROW(SafetyFilter(test::planar_bench(), settings), SetupError);
+  EXPECT_THROW(SafetyFilter(test::planar_rig(), settings), SetupError);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "systems/robot/constraint_tasks.h"
 #include "systems/robot/reaction_tasks.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -61,7 +61,7 @@ struct Controller {
     return settings;
   }
 
-  std::shared_ptr<const PlanarRrr> robot = test::planar_bench();
+  std::shared_ptr<const PlanarRrr> robot = test::planar_rig();
   DiagramBuilder builder{"test", 1ms};
   TaskController& block;
   InputPort<TaskList> tasks = builder.export_input("tasks", block.tasks);
@@ -156,10 +156,10 @@ TEST(TaskController, RefusesSettingsThatAreNotPositive) {
   DiagramBuilder builder("test", 1ms);
   TaskControllerSettings settings;
   settings.levels.free_damping = 0.0;
-  EXPECT_THROW(builder.add<TaskController>("a", test::planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<TaskController>("a", test::planar_rig(), settings), SetupError);
   settings = {};
   settings.blend = -1ms;
-  EXPECT_THROW(builder.add<TaskController>("b", test::planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<TaskController>("b", test::planar_rig(), settings), SetupError);
 }
 
 TEST(TaskController, DoesNotAllocateWhileItBlends) {

@@ -12,7 +12,7 @@
 #include "systems/robot/impedance_damping.h"
 #include "systems/robot/reaction_tasks.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 #include "tests/systems/laws/task_level_trial.h"
 #include "tests/systems/robot/residual.h"
@@ -115,7 +115,7 @@ TEST_F(TaskEnergyOf, ATaskThatIsNotValidIsNoNumber) {
 /// A watch over the platform's position and both constraints, of which none is active.
 struct Watch {
   explicit Watch(const test::Posture& at, const TaskGoal& goal) {
-    block = &builder.add<TaskEnergyWatch>("energies");
+    block = &builder.add<TaskEnergyMonitor>("energies");
     tasks = builder.export_input("tasks", block->tasks);
     kept = builder.export_input("kept", block->constraint_goals);
     state = builder.export_input("state", block->constraints);
@@ -139,7 +139,7 @@ struct Watch {
   }
 
   DiagramBuilder builder{"test", 1ms};
-  TaskEnergyWatch* block = nullptr;
+  TaskEnergyMonitor* block = nullptr;
   TaskList list, both;
   InputPort<TaskList> tasks, kept;
   InputPort<ConstraintState> state;

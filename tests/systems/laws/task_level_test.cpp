@@ -12,7 +12,7 @@
 #include "systems/robot/reaction_tasks.h"
 #include "systems/signals/pose_guidance.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/systems/laws/task_level_trial.h"
 #include "tests/systems/robot/residual.h"
 

@@ -7,11 +7,11 @@
 
 #include "systems/framework/random.h"
 #include "systems/laws/task_level.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 
 namespace flinch::test {
 
-/// The bench with friction in random postures, and levels that no drive limits.
+/// The rig with friction in random postures, and levels that no drive limits.
 class TaskLevelTrial : public testing::Test {
  protected:
   explicit TaskLevelTrial(std::uint64_t seed) : random(seed) {}
@@ -25,7 +25,7 @@ class TaskLevelTrial : public testing::Test {
   }
 
   RandomGenerator random;
-  std::shared_ptr<const PlanarRrr> robot = planar_bench(BenchFriction::test_bench);
+  std::shared_ptr<const PlanarRrr> robot = planar_rig(RigFriction::test_rig);
   TaskLevelSettings settings{.inverse = {},
                              .free_damping = 20.0,
                              .velocity_feedforward = 1.0,

@@ -6,7 +6,7 @@
 
 #include "systems/framework/diagram_builder.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -33,7 +33,7 @@ struct Law {
 };
 
 TEST(ZeroGravity, IsNoTorqueForARobotThatMovesHorizontally) {
-  const test::Posture posture(*test::planar_bench(), Eigen::Vector3d(0.05, -0.03, 0.1),
+  const test::Posture posture(*test::planar_rig(), Eigen::Vector3d(0.05, -0.03, 0.1),
                               Eigen::Vector3d(1, 1, 1));
   Law law;
   const TorqueCommand& command = law.at(posture.kinematics, posture.dynamics);
@@ -42,7 +42,7 @@ TEST(ZeroGravity, IsNoTorqueForARobotThatMovesHorizontally) {
 }
 
 TEST(ZeroGravity, DoesThePowerOfGravityAndNothingElse) {
-  test::Posture posture(*test::planar_bench(), Eigen::Vector3d(0.05, -0.03, 0.1),
+  test::Posture posture(*test::planar_rig(), Eigen::Vector3d(0.05, -0.03, 0.1),
                         Eigen::Vector3d(0.3, -0.2, 0.5));
   posture.dynamics.g_x = Eigen::Vector3d(3.0, -7.0, 0.4);  // as if the robot stood upright
   Law law;
@@ -53,7 +53,7 @@ TEST(ZeroGravity, DoesThePowerOfGravityAndNothingElse) {
 }
 
 TEST(ZeroGravity, IsNotValidWithoutAModel) {
-  test::Posture posture(*test::planar_bench());
+  test::Posture posture(*test::planar_rig());
   Law law;
   EXPECT_FALSE(law.at(Kinematics(), posture.dynamics).valid);
   EXPECT_FALSE(law.at(posture.kinematics, Dynamics()).valid);
@@ -62,7 +62,7 @@ TEST(ZeroGravity, IsNotValidWithoutAModel) {
 }
 
 TEST(ZeroGravity, NeverAllocates) {
-  const test::Posture posture(*test::planar_bench());
+  const test::Posture posture(*test::planar_rig());
   Law law;
   law.at(posture.kinematics, posture.dynamics);
   const test::AllocationCounter counter;

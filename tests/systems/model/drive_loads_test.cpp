@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -35,7 +35,7 @@ struct Loads {
 const JointVector torque{{1.0, -2.0, 3.0}};
 
 TEST(DriveLoads, HaveThePowerOfAllFriction) {
-  const auto robot = test::planar_bench(BenchFriction::test_bench);
+  const auto robot = test::planar_rig(RigFriction::test_rig);
   const test::Posture at(*robot, pose, velocity, 7ms);
   const DriveLoad load = Loads(robot).of(at, {7ms, true, torque});
   ASSERT_TRUE(load.valid);
@@ -55,7 +55,7 @@ TEST(DriveLoads, HaveThePowerOfAllFriction) {
 }
 
 TEST(DriveLoads, HaveTheInertiaThatMakesTorquesOfAccelerations) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const test::Posture at(*robot, pose, velocity);
   const auto acceleration = [&](const JointVector& by) {
     return JointVector(robot->drive_acceleration(pose, velocity, by).value());
@@ -68,7 +68,7 @@ TEST(DriveLoads, HaveTheInertiaThatMakesTorquesOfAccelerations) {
 }
 
 TEST(DriveLoads, HaveTheTorqueThatTurnsThePlatform) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const test::Posture at(*robot, pose, velocity);
   const auto turned =
       robot->acceleration(pose.head<3>(), velocity.head<3>(), torque.head<3>(), Eigen::Vector3d::Zero());
@@ -81,7 +81,7 @@ TEST(DriveLoads, HaveTheTorqueThatTurnsThePlatform) {
 }
 
 TEST(DriveLoads, DoNotKnowDryFrictionOfADriveThatStandsStill) {
-  const auto robot = test::planar_bench(BenchFriction::test_bench);
+  const auto robot = test::planar_rig(RigFriction::test_rig);
   const double most = robot->dry_friction(0).effort;
   ASSERT_GT(most, 0.0);
   Loads loads(robot);
@@ -93,7 +93,7 @@ TEST(DriveLoads, DoNotKnowDryFrictionOfADriveThatStandsStill) {
 }
 
 TEST(DriveLoads, AreNotValidWhereSomethingIsMissing) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const test::Posture at(*robot, pose, velocity);
   Loads loads(robot);
   EXPECT_TRUE(loads.of(at, {{}, true, torque}).valid);

@@ -20,8 +20,8 @@ namespace {
 using Status = PlatformMotion::Status;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::shared_ptr<const PlanarRrr> bench(BenchGeometry geometry = BenchGeometry::individual) {
-  return std::make_shared<PlanarRrr>(bench_robot(geometry, BenchFriction::none));
+std::shared_ptr<const PlanarRrr> rig(RigGeometry geometry = RigGeometry::individual) {
+  return std::make_shared<PlanarRrr>(rig_robot(geometry, RigFriction::none));
 }
 
 /// What the joints show at a pose.
@@ -40,7 +40,7 @@ Joints joints_at(const ParallelRobot& robot, const PlatformVector& pose, const P
 
 struct Solver {
   explicit Solver(const ForwardKinematicsSettings& settings = {},
-                  std::shared_ptr<const PlanarRrr> solved = bench())
+                  std::shared_ptr<const PlanarRrr> solved = rig())
       : robot(std::move(solved)),
         block(builder.add<ForwardKinematics>("kinematics", robot, settings)),
         motion(builder.export_input("motion", block.motion)),
@@ -155,7 +155,7 @@ TEST(ForwardKinematics, DoesNotConvergeForAnglesThatNoPoseHas) {
 }
 
 TEST(ForwardKinematics, TellsThatActiveAndPassiveEncodersContradictEachOtherBeyondTheLargestError) {
-  const auto robot = bench();
+  const auto robot = rig();
   RandomGenerator random(2);
   for (int k = 0; k < 50; ++k) {
     Joints joints = joints_at(*robot, somewhere, PlatformVector{{0.3, 0.2, 0.1}}, 0ms);
@@ -197,7 +197,7 @@ TEST(ForwardKinematics, TellsThatAnElbowHasChangedSides) {
 
 // From starts and poses on both sides of singularities.
 TEST(ForwardKinematics, TellsAJumpToAnotherBranchAlsoWithoutPassiveAngles) {
-  const auto robot = bench();
+  const auto robot = rig();
   RandomGenerator random(3);
   int jumps = 0;
   for (int k = 0; k < 2000; ++k) {
@@ -236,7 +236,7 @@ TEST(ForwardKinematics, DoesNotJudgeByPassiveAnglesOfAnotherTime) {
 
 // A microradian from it: the pose still converges, but the velocity would have no digits left.
 TEST(ForwardKinematics, HasNoVelocityNextToASingularity) {
-  Solver solver({}, bench(BenchGeometry::nominal));
+  Solver solver({}, rig(RigGeometry::nominal));
   const auto det_A = [&](double phi) {
     Kinematics kinematics;
     solver.robot->kinematics(PlatformVector{{0.0, 0.0, phi}}, PlatformVector::Zero(3), kinematics);
@@ -295,7 +295,7 @@ TEST(ForwardKinematics, SaysAllThatIsWrongWithItsSettings) {
   settings.initial_pose = PlatformVector{{5.0, 0.0, 0.0}};
   settings.largest_closure_error = 0.0;
   try {
-    ForwardKinematics kinematics(bench(), settings);
+    ForwardKinematics kinematics(rig(), settings);
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 2U) << error.what();

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 
 namespace flinch {
 namespace {
@@ -13,8 +13,7 @@ namespace {
 /// A 3-RRR whose drives have dry friction, followed a millisecond a time.
 class Drives {
  public:
-  Drives()
-      : robot_(test::planar_bench(BenchFriction::test_bench)), bounds_(*robot_, FrictionBoundsSettings()) {}
+  Drives() : robot_(test::planar_rig(RigFriction::test_rig)), bounds_(*robot_, FrictionBoundsSettings()) {}
 
   FrictionInterval at(const JointVector& rate) {
     FrictionBoundsMemory next;
@@ -93,7 +92,7 @@ TEST(FrictionBounds, AreAsOfRestAfterAGap) {
 }
 
 TEST(FrictionBounds, AreNoneWhereTheModelHasNoDryFriction) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   FrictionBounds bounds(*robot, {});
   FrictionBoundsMemory next;
   bounds.follow(1ms, rates(0.0), {}, next);

@@ -36,7 +36,7 @@ struct Model {
   }
 
   std::shared_ptr<const PlanarRrr> robot =
-      std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+      std::make_shared<PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
   DiagramBuilder builder;
   RobotModel& block;
   InputPort<PlatformMotion> platform;

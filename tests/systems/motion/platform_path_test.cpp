@@ -8,7 +8,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 
 namespace flinch {
 namespace {
@@ -32,7 +32,7 @@ void expect_consistent(const PlatformPath& path) {
 }
 
 TEST(PlatformPath, RestsAtEveryPoseInTurn) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const std::vector<Configuration> poses{pose(0, 0, 0), pose(0.1, 0, 0.1), pose(0.1, 0.05, -0.2)};
   const PlatformPath path = PlatformPath::through(*robot, poses, limits);
   EXPECT_EQ(path.start(), poses[0]);
@@ -55,7 +55,7 @@ TEST(PlatformPath, RestsAtEveryPoseInTurn) {
 }
 
 TEST(PlatformPath, PausesOnTheWay) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const std::vector<Configuration> poses{pose(0, 0, 0), pose(0.1, 0, 0.1), pose(0.1, 0.05, -0.2)};
   const PlatformPath without = PlatformPath::through(*robot, poses, limits);
   const PlatformPath path = PlatformPath::through(*robot, poses, limits, 0.3);
@@ -72,21 +72,21 @@ TEST(PlatformPath, PausesOnTheWay) {
 }
 
 TEST(PlatformPath, TurnsTheShorterWayRound) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const double turn = 2.0 * std::acos(-1.0);
   const PlatformPath path = PlatformPath::through(*robot, {pose(0, 0, 0.1), pose(0, 0, turn - 0.1)}, limits);
   EXPECT_NEAR(path.evaluate(path.duration()).pose[2], -0.1, 1e-12);
 }
 
 TEST(PlatformPath, StaysAtASinglePose) {
-  const PlatformPath path = PlatformPath::through(*test::planar_bench(), {pose(0.05, 0, 0)}, limits);
+  const PlatformPath path = PlatformPath::through(*test::planar_rig(), {pose(0.05, 0, 0)}, limits);
   EXPECT_EQ(path.duration(), 0.0);
   EXPECT_EQ(path.evaluate(3.0).pose, pose(0.05, 0, 0));
   EXPECT_TRUE(path.evaluate(0.0).finished);
 }
 
 TEST(PlatformPath, GoesRoundTheSquareAsOftenAsAsked) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const PlatformPath once = PlatformPath::square(*robot, pose(0, 0, 0), 0.2, limits);
   const PlatformPath twice = PlatformPath::square(*robot, pose(0, 0, 0), 0.2, limits, 2);
   EXPECT_NEAR(twice.duration(), 2.0 * once.duration(), 1e-12);
@@ -97,12 +97,12 @@ TEST(PlatformPath, GoesRoundTheSquareAsOftenAsAsked) {
 
 TEST(PlatformPath, IsNotValidAtATimeThatIsNone) {
   const PlatformPath path =
-      PlatformPath::through(*test::planar_bench(), {pose(0, 0, 0), pose(0.1, 0, 0)}, limits);
+      PlatformPath::through(*test::planar_rig(), {pose(0, 0, 0), pose(0.1, 0, 0)}, limits);
   EXPECT_FALSE(path.evaluate(nan).valid);
 }
 
 TEST(PlatformPath, NeverAllocatesOnceItExists) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const PlatformPath path =
       PlatformPath::through(*robot, {pose(0, 0, 0), pose(0.1, 0, 0), pose(0, 0, 0.1)}, limits);
   const PlatformPath square = PlatformPath::square(*robot, pose(0, 0, 0), 0.2, limits);
@@ -112,7 +112,7 @@ TEST(PlatformPath, NeverAllocatesOnceItExists) {
 }
 
 TEST(PlatformPath, RefusesWhatCannotBeDriven) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   EXPECT_THROW(PlatformPath::through(*robot, {}, limits), SetupError);
   EXPECT_THROW(PlatformPath::through(*robot, {pose(nan, 0, 0)}, limits), SetupError);
   EXPECT_THROW(PlatformPath::through(*robot, {pose(0, 0, 0), Eigen::Vector2d(0, 0)}, limits), SetupError);
@@ -123,7 +123,7 @@ TEST(PlatformPath, RefusesWhatCannotBeDriven) {
 }
 
 TEST(PlatformPath, RefusesAWayThatTakesForEver) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const std::vector<Configuration> poses{pose(0, 0, 0), pose(0.1, 0, 0)};
   for (const double speed : {1e-6, 1e-12, 1e-300}) {
     PoseLimits slow = limits;
@@ -135,7 +135,7 @@ TEST(PlatformPath, RefusesAWayThatTakesForEver) {
 }
 
 TEST(PlatformPath, ChecksOneOfManyLaps) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const double lap = PlatformPath::square(*robot, pose(0, 0, 0), 0.2, limits).duration();
   const PlatformPath many = PlatformPath::square(*robot, pose(0, 0, 0), 0.2, limits, 2'000'000'000);
   EXPECT_NEAR(many.duration(), 2e9 * lap, 1.0);
@@ -150,7 +150,7 @@ TEST_P(PassageAtSpeed, PassesThePoseAtItsTimeWithConstantVelocity) {
   const double v = GetParam();
   const PassageSettings settings{
       .pose = pose(0.02, -0.01, 0.05), .direction = Eigen::Vector2d(3.0, 4.0), .speed = v, .cruise = 0.02};
-  const Passage passing = passage(*test::planar_bench(), settings);
+  const Passage passing = passage(*test::planar_rig(), settings);
   const Eigen::Vector3d velocity(0.6 * v, 0.8 * v, 0.0);
   EXPECT_LT((passing.path.evaluate(passing.time).pose - settings.pose).norm(), 1e-12);
   for (double s = -0.0199; s < 0.02; s += 0.001) {
@@ -165,7 +165,7 @@ TEST_P(PassageAtSpeed, PassesThePoseAtItsTimeWithConstantVelocity) {
 
 TEST_P(PassageAtSpeed, KeepsItsLimits) {
   const Passage passing = passage(
-      *test::planar_bench(),
+      *test::planar_rig(),
       {.pose = pose(0, 0, 0), .direction = Eigen::Vector2d(1.0, 0.0), .speed = GetParam(), .cruise = 0.02});
   for (double t = 0.0; t < passing.path.duration(); t += 1e-3) {
     const PlatformReference now = passing.path.evaluate(t);
@@ -175,7 +175,7 @@ TEST_P(PassageAtSpeed, KeepsItsLimits) {
 }
 
 TEST(Passage, RefusesWhatCannotBePassed) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const PassageSettings good{.pose = pose(0, 0, 0), .direction = Eigen::Vector2d(1.0, 0.0), .speed = 0.5};
   PassageSettings bad[] = {good, good, good, good, good};
   bad[0].speed = 0.0;

@@ -8,7 +8,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -21,13 +21,12 @@ const PoseLimits limits{.translation = {1.0, 20.0, 2000.0}, .rotation = {4.0, 80
 PlatformVector pose(double x, double y, double phi) { return Eigen::Vector3d(x, y, phi); }
 
 PlatformPath there_and_back() {
-  return PlatformPath::through(*test::planar_bench(), {pose(0, 0, 0), pose(0.1, 0, 0), pose(0, 0, 0)},
-                               limits);
+  return PlatformPath::through(*test::planar_rig(), {pose(0, 0, 0), pose(0.1, 0, 0), pose(0, 0, 0)}, limits);
 }
 
 struct Nominal {
   explicit Nominal(PlatformTrajectorySettings settings)
-      : block(builder.add<PlatformTrajectory>("trajectory", test::planar_bench(), std::move(settings))),
+      : block(builder.add<PlatformTrajectory>("trajectory", test::planar_rig(), std::move(settings))),
         reaction(builder.export_input("reaction", block.reaction)),
         platform(builder.export_input("platform", block.platform)),
         start(builder.export_input("start", block.start)),
@@ -215,7 +214,7 @@ TEST(PlatformTrajectory, NeverAllocates) {
 }
 
 TEST(PlatformTrajectory, RefusesAnApproachWithoutLimits) {
-  EXPECT_THROW(PlatformTrajectory(test::planar_bench(), {.approach = {}}), SetupError);
+  EXPECT_THROW(PlatformTrajectory(test::planar_rig(), {.approach = {}}), SetupError);
 }
 
 // ---------------------------------------------------------------- targets

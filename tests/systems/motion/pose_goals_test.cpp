@@ -5,7 +5,7 @@
 #include "systems/framework/diagram_builder.h"
 #include "systems/robot/five_bar.h"
 #include "systems/robot/five_bar_presets.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -32,7 +32,7 @@ struct Goals {
 };
 
 TEST(PoseGoals, AreThePositionAndBelowItTheOrientation) {
-  Goals goals(test::planar_bench());
+  Goals goals(test::planar_rig());
   const PlatformReference desired{true, false, Eigen::Vector3d(0.03, -0.02, 3.0), Eigen::Vector3d(1, 2, 3),
                                   Eigen::Vector3d(4, 5, 6)};
   const TaskList& list = goals.at(desired, Eigen::Vector3d(0.01, 0.01, 0.1));
@@ -55,7 +55,7 @@ TEST(PoseGoals, OfAPointAreItsPositionAlone) {
 }
 
 TEST(PoseGoals, WithoutAReferenceThatFitsAreNotValid) {
-  Goals goals(test::planar_bench());
+  Goals goals(test::planar_rig());
   const PlatformVector home = PlatformVector::Zero(3);
   EXPECT_FALSE(goals.at(PlatformReference(), home).valid);
   EXPECT_FALSE(goals.at({true, false, home, PlatformVector::Zero(2), home}, home).valid);

@@ -4,7 +4,7 @@
 #include <Eigen/QR>
 
 #include "systems/robot/reaction_tasks.h"
-#include "tests/systems/motion/reaction_bench.h"
+#include "tests/systems/motion/reaction_rig.h"
 
 namespace flinch::test {
 namespace {

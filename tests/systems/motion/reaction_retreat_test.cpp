@@ -7,7 +7,7 @@
 #include "systems/robot/hexapod.h"
 #include "systems/robot/hexapod_presets.h"
 #include "tests/support/allocations.h"
-#include "tests/systems/motion/reaction_bench.h"
+#include "tests/systems/motion/reaction_rig.h"
 
 namespace flinch::test {
 namespace {
@@ -276,7 +276,7 @@ TEST_P(RetreatOf, AnyRobotLeadsBackToAPoseWhereItWasWithoutAllocating) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, RetreatOf,
-                         testing::Values(planar_bench(), std::make_shared<FiveBar>(five_bar_robot()),
+                         testing::Values(planar_rig(), std::make_shared<FiveBar>(five_bar_robot()),
                                          std::make_shared<Hexapod>(hexapod_robot())),
                          [](const auto& robot) {
                            return "with_" + std::to_string(robot.param->dof()) + "_drives";

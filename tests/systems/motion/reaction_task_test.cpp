@@ -8,7 +8,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/reaction_tasks.h"
 #include "tests/support/allocations.h"
-#include "tests/systems/motion/reaction_bench.h"
+#include "tests/systems/motion/reaction_rig.h"
 
 namespace flinch::test {
 namespace {
@@ -389,25 +389,25 @@ TEST(ReactionTask, RefusesSettingsThatMakeNoSense) {
   DiagramBuilder builder("test", 1ms);
   ReactionTaskSettings settings;
   settings.largest_opening = 0.1;
-  EXPECT_THROW(builder.add<ReactionTask>("a", planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("a", planar_rig(), settings), SetupError);
   settings = {};
   settings.translation.jerk = 0.0;
-  EXPECT_THROW(builder.add<ReactionTask>("b", planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("b", planar_rig(), settings), SetupError);
   settings = {};
   settings.drive_share = 1.5;
-  EXPECT_THROW(builder.add<ReactionTask>("c", planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("c", planar_rig(), settings), SetupError);
   settings = {};
   settings.max_torque = 0.0;
-  EXPECT_THROW(builder.add<ReactionTask>("d", planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("d", planar_rig(), settings), SetupError);
   settings = {};
   settings.max_torque_rate = -1.0;
-  EXPECT_THROW(builder.add<ReactionTask>("e", planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("e", planar_rig(), settings), SetupError);
   settings = {};
   settings.rest_speed = 0.0;
-  EXPECT_THROW(builder.add<ReactionTask>("f", planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("f", planar_rig(), settings), SetupError);
   settings = {};
   settings.longest_braking = -1ms;
-  EXPECT_THROW(builder.add<ReactionTask>("g", planar_bench(), settings), SetupError);
+  EXPECT_THROW(builder.add<ReactionTask>("g", planar_rig(), settings), SetupError);
 }
 
 TEST(ReactionTask, DoesNotAllocate) {

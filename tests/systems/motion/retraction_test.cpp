@@ -9,7 +9,7 @@
 #include "systems/framework/diagram_builder.h"
 #include "systems/framework/random.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -28,7 +28,7 @@ WrenchEstimate pushed(const Eigen::Vector3d& wrench, bool valid = true) {
 
 struct Reflex {
   explicit Reflex(const RetractionSettings& settings = {})
-      : block(builder.add<Retraction>("retraction", test::planar_bench(), settings)),
+      : block(builder.add<Retraction>("retraction", test::planar_rig(), settings)),
         reaction(builder.export_input("reaction", block.reaction)),
         platform(builder.export_input("platform", block.platform)),
         estimate(builder.export_input("estimate", block.estimate)) {
@@ -196,7 +196,7 @@ TEST(Retraction, NeverAllocates) {
 }
 
 TEST(Retraction, RefusesSettingsThatAreNotPositive) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   EXPECT_THROW(Retraction(robot, {.distance = 0.0}), SetupError);
   EXPECT_THROW(Retraction(robot, {.angle = -1.0}), SetupError);
   EXPECT_THROW(Retraction(robot, {.force_to_go_by = nan}), SetupError);

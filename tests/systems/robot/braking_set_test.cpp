@@ -7,13 +7,13 @@
 
 #include "systems/robot/link_segments.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 
 namespace flinch {
 namespace {
 
-PlaceLimits tight_limits() {
-  PlaceLimits limits;
+PoseConstraints tight_limits() {
+  PoseConstraints limits;
   limits.max_condition_number = 15.0;
   limits.workspace.min_self_collision_distance = 0.17;
   return limits;
@@ -37,7 +37,7 @@ double largest_torque(const State& state, double duration) {
 }
 
 TEST(AStraightStop, IsAsShortAsTheDrivesAllow) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int trial = 0; trial < 500; ++trial) {
@@ -52,10 +52,10 @@ TEST(AStraightStop, IsAsShortAsTheDrivesAllow) {
 
 // The way is a parabola: its points, found by stepping the motion with its constant deceleration.
 TEST(AStraightStop, StaysInsideWhereEveryPoseOnItsWayDoes) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   std::mt19937 random(4);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  const PlaceLimits limits = tight_limits();
+  const PoseConstraints limits = tight_limits();
   int inside = 0, outside = 0;
   for (int trial = 0; trial < 400; ++trial) {
     const State state(*robot, {0.16 * any(random), 0.16 * any(random), 0.4 * any(random)},
@@ -87,7 +87,7 @@ TEST(AStraightStop, StaysInsideWhereEveryPoseOnItsWayDoes) {
 }
 
 TEST(AStraightStop, OfARobotAtRestIsOver) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const State state(*robot, {0, 0, 0}, {0, 0, 0});
   const StraightStop stop = straight_stop(*robot, state.at, state.dynamics, tight_limits(), 70.0);
   EXPECT_TRUE(stop.is_possible() && stop.stays_inside);
@@ -95,7 +95,7 @@ TEST(AStraightStop, OfARobotAtRestIsOver) {
 }
 
 TEST(AStraightStop, IsNotPossibleWithoutTorquesOrWithoutAModel) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const State state(*robot, {0, 0, 0}, {2.0, 0, 0});
   const StraightStop stop = straight_stop(*robot, state.at, state.dynamics, tight_limits(), 1e-6);
   EXPECT_FALSE(stop.is_possible() || stop.stays_inside);
@@ -105,7 +105,7 @@ TEST(AStraightStop, IsNotPossibleWithoutTorquesOrWithoutAModel) {
 }
 
 TEST(AStraightStop, DoesNotAllocate) {
-  const auto robot = test::planar_bench();
+  const auto robot = test::planar_rig();
   const State state(*robot, {0.02, 0, 0.1}, {1.0, 0.2, 0.5});
   const test::AllocationCounter counter;
   straight_stop(*robot, state.at, state.dynamics, tight_limits(), 70.0);

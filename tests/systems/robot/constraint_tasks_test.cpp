@@ -178,7 +178,7 @@ class PlanarConstraints : public ::testing::Test {
   }
   Task self_collision(const Kinematics& k) const { return self_collision_task(robot, k, NearbyPlaces()); }
 
-  PlanarRrr robot{bench_robot(BenchGeometry::nominal, BenchFriction::none)};
+  PlanarRrr robot{rig_robot(RigGeometry::nominal, RigFriction::none)};
 };
 
 TEST_F(PlanarConstraints, OnThePlateauTheSelfCollisionDistanceHasNoGradientAndNoDrift) {

@@ -39,7 +39,7 @@ TEST_P(EquationsOfMotion, HorizontalRobotNeedsNoTorqueAgainstGravity) {
 }
 
 TEST(EquationsOfMotionAtHome, HaveThePublishedValues) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::none));
   Kinematics k;
   Dynamics dynamics;
   robot.kinematics(robot.home_pose(), PlatformVector::Zero(3), k);

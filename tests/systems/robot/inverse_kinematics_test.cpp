@@ -55,13 +55,13 @@ TEST_P(InverseKinematics, ClosesTheLoopInEveryWorkingMode) {
 }
 
 TEST(InverseKinematicsAtHome, HasThePublishedAngles) {
-  const PlanarRrr individual(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const PlanarRrr individual(rig_robot(RigGeometry::individual, RigFriction::none));
   const JointAngles joints =
       individual.inverse_kinematics(individual.home_pose(), individual.home_working_mode()).joints;
   EXPECT_TRUE(joints.active.isApprox(Eigen::Vector3d(25.518, 25.963, 24.379) * degree, 5e-5));
   EXPECT_TRUE(joints.passive.isApprox(Eigen::Vector3d(122.305, 121.775, 124.609) * degree, 1e-5));
 
-  const PlanarRrr nominal(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr nominal(rig_robot(RigGeometry::nominal, RigFriction::none));
   const JointAngles equal =
       nominal.inverse_kinematics(nominal.home_pose(), nominal.home_working_mode()).joints;
   for (int i = 0; i < 3; ++i) {
@@ -71,13 +71,13 @@ TEST(InverseKinematicsAtHome, HasThePublishedAngles) {
 }
 
 TEST(InverseKinematicsAtHome, OtherElbowSideLeavesTheJointRange) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::none));
   const WorkingMode other = WorkingMode::Ones(3);
   EXPECT_NEAR(robot.inverse_kinematics(robot.home_pose(), other).joints.active[0] / degree, 154.5, 0.5);
 }
 
 TEST(InverseKinematicsOutOfReach, EndsExactlyWhereALegIsStretched) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::none));
   const double stretched =
       0.6829 - 0.107 - (0.5816 + 0.6198);  // x at which leg 1 points straight at the platform
   EXPECT_TRUE(robot.inverse_kinematics(Eigen::Vector3d(stretched + 1e-9, 0.0, 0.0), robot.home_working_mode())

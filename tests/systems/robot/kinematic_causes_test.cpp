@@ -36,7 +36,7 @@ class KinematicCauses : public testing::Test {
     for (JointVector& row : rows) change(row);
     return likely_kinematic_causes(robot, rows);
   }
-  PlanarRrr robot{bench_robot(BenchGeometry::individual, BenchFriction::none)};
+  PlanarRrr robot{rig_robot(RigGeometry::individual, RigFriction::none)};
 };
 
 TEST_F(KinematicCauses, AreNoneWhereTheRobotCanStandSo) {

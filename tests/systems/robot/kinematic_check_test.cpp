@@ -58,7 +58,7 @@ void expect_other_assemblies(const Robot& robot) {
 
 TEST(AssembledAs, IsTheSameRobotWithAnElbowOnItsOtherSide) {
   expect_other_assemblies(FiveBar(five_bar_robot()));
-  expect_other_assemblies(PlanarRrr(bench_robot(BenchGeometry::individual, BenchFriction::none)));
+  expect_other_assemblies(PlanarRrr(rig_robot(RigGeometry::individual, RigFriction::none)));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST_P(DifferentialKinematics, ReducedConstraintsGiveTheSameJacobianAndDetermina
 }
 
 TEST(KinematicsAtHome, HasThePublishedValues) {
-  const PlanarRrr individual(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const PlanarRrr individual(rig_robot(RigGeometry::individual, RigFriction::none));
   Kinematics k;
   individual.kinematics(individual.home_pose(), PlatformVector::Zero(3), k);
   EXPECT_TRUE(k.valid);
@@ -50,7 +50,7 @@ TEST(KinematicsAtHome, HasThePublishedValues) {
       drive_torques(k, Eigen::Vector3d(0, 0, 1)).isApprox(Eigen::Vector3d(-1.78, -1.83, -1.74), 3e-3));
   EXPECT_TRUE(k.legs[1].base_joint.isApprox(Eigen::Vector2d(-0.35405, 0.59480), 1e-5));
 
-  const PlanarRrr nominal(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr nominal(rig_robot(RigGeometry::nominal, RigFriction::none));
   nominal.kinematics(nominal.home_pose(), PlatformVector::Zero(3), k);
   EXPECT_NEAR(k.sigma_kappa, 7.79, 5e-3);
   Eigen::Matrix3d J;
@@ -60,7 +60,7 @@ TEST(KinematicsAtHome, HasThePublishedValues) {
 }
 
 TEST(KinematicsAtHome, TurningTowardsPositivePhiApproachesTheSingularity) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::none));
   Kinematics k;
   const double expected[][3] = {
       {-29, -0.529, 0}, {-20, 0, 6.7}, {20, 0, 11.7}, {29, -0.214, 0}, {30, 0, 17.3}};
@@ -99,7 +99,7 @@ double singular_orientation(const PlanarRrr& robot) {
 }
 
 TEST(SingularPose, OfTypeTwoIsReachableButNotValidAndFinite) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::test_rig));
   const Eigen::Vector3d singular(0, 0, singular_orientation(robot));
   const Eigen::Vector3d velocity(0.3, -0.2, 1.0);
   Kinematics k;
@@ -122,7 +122,7 @@ TEST(SingularPose, OfTypeTwoIsReachableButNotValidAndFinite) {
 }
 
 TEST(SingularPose, OfTypeOneOrOutOfReachIsNotValidAndFinite) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::test_bench));
+  const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::test_rig));
   const double stretched = 0.6829 - 0.107 - (0.5816 + 0.6198);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Kinematics k;
@@ -142,7 +142,7 @@ TEST(SingularPose, OfTypeOneOrOutOfReachIsNotValidAndFinite) {
 }
 
 TEST(SingularPose, LeavesNothingOfAnEarlierEvaluation) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::none));
   Kinematics k;
   robot.kinematics(robot.home_pose(), Eigen::Vector3d(1, 1, 1), k);
   robot.kinematics(Eigen::Vector3d(9, 0, 0), Eigen::Vector3d(1, 1, 1), k);

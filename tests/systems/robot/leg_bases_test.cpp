@@ -14,12 +14,12 @@
 namespace flinch {
 namespace {
 
-std::shared_ptr<const PlanarRrr> bench() {
-  return std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+std::shared_ptr<const PlanarRrr> rig() {
+  return std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
 }
 
 TEST(LegBases, AreHeavierAsTheLegsAre) {
-  const auto model = bench();
+  const auto model = rig();
   const auto heavier = model->deviating({.leg_inertia_scale = Eigen::Vector3d(1.1, 1.0, 1.0)});
   const JointVector moments = Eigen::Vector3d(1.0, 1.0, 1.0);
   Kinematics at;
@@ -32,7 +32,7 @@ TEST(LegBases, AreHeavierAsTheLegsAre) {
 }
 
 TEST(LegBases, AreRefusedWhereNobodyKnowsThem) {
-  const auto model = bench();
+  const auto model = rig();
   const auto spatial =
       std::make_shared<const Hexapod>(hexapod_robot(HexapodPayload::none, HexapodFriction::none));
   const JointVector three = JointVector::Constant(3, 1.0);

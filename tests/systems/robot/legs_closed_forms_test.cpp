@@ -109,10 +109,10 @@ void make_uneven(Parameters& robot, const LinkBody& link1, const LinkBody& link2
 }
 
 TEST(LegsAsClosedForms, ArePlanarRrr) {
-  for (const BenchGeometry geometry : {BenchGeometry::individual, BenchGeometry::nominal}) {
-    PlanarRrrParameters p = bench_robot(geometry, BenchFriction::none);
-    make_uneven(p, bench_link1(), bench_link2());
-    SameRobot(legs_robot_in(legs_text(p, bench_link1(), bench_link2())), PlanarRrr(p))
+  for (const RigGeometry geometry : {RigGeometry::individual, RigGeometry::nominal}) {
+    PlanarRrrParameters p = rig_robot(geometry, RigFriction::none);
+    make_uneven(p, rig_link1(), rig_link2());
+    SameRobot(legs_robot_in(legs_text(p, rig_link1(), rig_link2())), PlanarRrr(p))
         .compare(Eigen::Vector3d(0.2, 0.2, 0.3), Eigen::Vector3d(1.0, 1.0, 2.0));
   }
 }

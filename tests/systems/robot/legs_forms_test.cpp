@@ -189,8 +189,8 @@ TEST(LegsForms, WithAnOrientationThatFollowsFromParallelogramsAreThoseThatFixIt)
 // The hinge at the platform given as a joint: three joints that hold a frame, in the place of two that hold a
 // point.
 TEST(LegsForms, WithHingesAtThePlatformAreThoseThatHoldPoints) {
-  const PlanarRrrParameters p = bench_robot(BenchGeometry::individual, BenchFriction::simulation);
-  const std::string text = legs_text(p, bench_link1(), bench_link2());
+  const PlanarRrrParameters p = rig_robot(RigGeometry::individual, RigFriction::simulation);
+  const std::string text = legs_text(p, rig_link1(), rig_link2());
   std::string hinged = text;
   std::size_t at = 0;
   for (const PlanarRrrLeg& leg : p.legs) {
@@ -303,8 +303,8 @@ TEST(LegsForms, WithGearsCountDrivesByTheirRatio) {
 
 // Far beyond reach: a followed leg finds the solution of the closed form, or none.
 TEST(LegsPaths, NeverJump) {
-  const PlanarRrrParameters p = bench_robot(BenchGeometry::nominal, BenchFriction::none);
-  LegsParameters parameters = legs_parameters_in(legs_text(p, bench_link1(), bench_link2()));
+  const PlanarRrrParameters p = rig_robot(RigGeometry::nominal, RigFriction::none);
+  LegsParameters parameters = legs_parameters_in(legs_text(p, rig_link1(), rig_link2()));
   const LegsRobot closed(parameters);
   for (RobotLeg& leg : parameters.legs) {  // A second closure that says the same takes the closed form away.
     leg.closures.push_back(leg.closures.front());

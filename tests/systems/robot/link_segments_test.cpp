@@ -134,14 +134,14 @@ TEST_P(SelfCollision, DistanceHasAClosedFormInTheAnglesOfTheSecondLinks) {
 }
 
 TEST(SelfCollisionAtHome, HasThePublishedDistance) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::none));
   Kinematics k;
   robot.kinematics(robot.home_pose(), PlatformVector::Zero(3), k);
   EXPECT_NEAR(self_collision_distance(robot, k), 0.18533, 5e-6);
 }
 
 TEST(SelfCollisionAtHome, OutOfReachCountsAsCollision) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::none));
   Kinematics k;
   robot.kinematics(Eigen::Vector3d(9, 0, 0), PlatformVector::Zero(3), k);
   EXPECT_EQ(self_collision_distance(robot, k), 0.0);

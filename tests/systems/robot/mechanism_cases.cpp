@@ -130,8 +130,8 @@ HexapodParameters uneven_hexapod() {
 }
 
 std::vector<MechanismCase> own_cases() {
-  return {planar_rrr_case("PlanarRrrIndividual", BenchGeometry::individual),
-          planar_rrr_case("PlanarRrrNominal", BenchGeometry::nominal),
+  return {planar_rrr_case("PlanarRrrIndividual", RigGeometry::individual),
+          planar_rrr_case("PlanarRrrNominal", RigGeometry::nominal),
           five_bar_case("FiveBarElbowsOutward", FiveBarElbows::outward),
           five_bar_case("FiveBarElbowsInward", FiveBarElbows::inward),
           point_on_three_legs_case("PointOnThreeLegs"),

@@ -13,8 +13,8 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// Limits of every kind.
-PlaceLimits limits_of_every_kind() {
-  PlaceLimits limits;
+PoseConstraints limits_of_every_kind() {
+  PoseConstraints limits;
   limits.workspace.max_distance = 10.0;
   limits.workspace.max_rotation = 100.0 * degree;
   limits.workspace.min_abs_det_A = 1e-3;
@@ -104,7 +104,7 @@ TEST_P(MotionBarrierLaws, MarginsOnlyTakeRoom) {
 /// which is on the safe side.
 TEST_P(MotionBarrierLaws, RoomIsThatToTheLimit) {
   const LimitMargins none{.condition_number = 0, .angle = 0, .distance = 0, .share = 0, .range = 0};
-  const PlaceLimits limits = limits_of_every_kind();
+  const PoseConstraints limits = limits_of_every_kind();
   for (const MotionState& state : some_states()) {
     const Kinematics k = kinematics_at(state.pose, state.velocity);
     const BarrierList list = barriers_at(k, none);
@@ -150,7 +150,7 @@ TEST_P(MotionBarrierLaws, OutOfReachThereIsNoneThatIsValid) {
 TEST_P(MotionBarrierLaws, NeedNoHeap) {
   const Kinematics k = kinematics_at(states.front().pose, states.front().velocity);
   BarrierList list;
-  const PlaceLimits limits = limits_of_every_kind();
+  const PoseConstraints limits = limits_of_every_kind();
   const test::AllocationCounter counter;
   evaluate_barriers(robot, k, limits, {}, list);
   EXPECT_EQ(counter.count(), 0);

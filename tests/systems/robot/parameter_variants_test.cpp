@@ -63,7 +63,7 @@ Eigen::MatrixXd written_out(const Instant& now, double friction_velocity) {
 }
 
 TEST(Regressor, OfThePlanarRobotIsThatOfItsWrittenEquations) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::test_rig));
   const auto parameters = DynamicParameters::of(robot);
   const ParameterVariants variants(*parameters);
   ASSERT_EQ(variants.size(), 23U);
@@ -100,7 +100,7 @@ void expect_linear(const Robot& robot) {
 }
 
 TEST(Regressor, MakesTheEffortOfEveryMechanismLinear) {
-  expect_linear(PlanarRrr(bench_robot(BenchGeometry::individual, BenchFriction::test_bench)));
+  expect_linear(PlanarRrr(rig_robot(RigGeometry::individual, RigFriction::test_rig)));
   expect_linear(Hexapod(hexapod_robot()));
 }
 
@@ -122,7 +122,7 @@ TEST(Parameters, OfTheRobotItselfAreTheRobot) {
 
 // The inertial columns of equal legs have one direction that no motion shows (all legs alike).
 TEST(Regressor, OfEqualLegsDoesNotSeeOneDirection) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::none));
   const auto parameters = DynamicParameters::of(robot);
   const ParameterVariants variants(*parameters);
   const double l1 = robot.parameters().legs[0].link1_length, l2 = robot.parameters().legs[0].link2_length;

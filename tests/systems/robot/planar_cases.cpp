@@ -153,11 +153,11 @@ MechanismCase point_case(const std::string& name, std::shared_ptr<const Parallel
 
 }  // namespace
 
-MechanismCase planar_rrr_case(const std::string& name, BenchGeometry geometry) {
-  PlanarRrrParameters parameters = bench_robot(geometry, BenchFriction::none);
+MechanismCase planar_rrr_case(const std::string& name, RigGeometry geometry) {
+  PlanarRrrParameters parameters = rig_robot(geometry, RigFriction::none);
   const std::vector<RigidBodyInertia> bodies =
       platform_and_links({.mass = parameters.platform_mass, .inertia = parameters.platform_inertia},
-                         bench_link1(), bench_link2(), parameters.legs);
+                         rig_link1(), rig_link2(), parameters.legs);
   const auto reference = [parameters, bodies](const MotionState& state, const Loads& loads) {
     const Vector origin(state.pose[0], state.pose[1], 0.0);
     ConstrainedBodies model;

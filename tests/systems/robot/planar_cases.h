@@ -9,7 +9,7 @@
 namespace flinch::test {
 
 /// Planar robots whose legs differ in inertia, rotors and friction, and their bodies.
-MechanismCase planar_rrr_case(const std::string& name, BenchGeometry geometry);
+MechanismCase planar_rrr_case(const std::string& name, RigGeometry geometry);
 MechanismCase five_bar_case(const std::string& name, FiveBarElbows elbows);
 MechanismCase point_on_three_legs_case(const std::string& name);
 

@@ -23,8 +23,8 @@ Kinematics at(const PlanarRrr& robot, const PlatformVector& pose) {
 double change_of_log(double before, double after) { return std::log(after / before) / (2.0 * step); }
 
 TEST(PlanarDeterminants, ChangeAsTheirDifferencesDo) {
-  for (const BenchGeometry geometry : {BenchGeometry::nominal, BenchGeometry::individual}) {
-    const PlanarRrr robot(bench_robot(geometry, BenchFriction::none));
+  for (const RigGeometry geometry : {RigGeometry::nominal, RigGeometry::individual}) {
+    const PlanarRrr robot(rig_robot(geometry, RigFriction::none));
     RandomGenerator random(1);
     double largest = 0.0;
     for (int k = 0; k < 300; ++k) {
@@ -56,7 +56,7 @@ TEST(PlanarDeterminants, HaveNoClosedFormOfOtherMechanismsNorOutOfReach) {
     const bool is_planar = dynamic_cast<const PlanarRrr*>(each.robot.get()) != nullptr;
     EXPECT_EQ(each.robot->determinant_gradients(home).has_value(), is_planar) << each.name;
   }
-  const PlanarRrr robot(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::nominal, RigFriction::none));
   EXPECT_FALSE(robot.determinant_gradients(at(robot, Eigen::Vector3d(9.0, 0.0, 0.0))).has_value());
 }
 

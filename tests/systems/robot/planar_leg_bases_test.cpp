@@ -19,8 +19,8 @@ using Eigen::Vector3d;
 
 constexpr std::array<double, 3> first_moments = {1.1, 0.9, 1.3};
 
-std::shared_ptr<const PlanarRrr> bench() {
-  return std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::individual, BenchFriction::test_bench));
+std::shared_ptr<const PlanarRrr> rig() {
+  return std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::individual, RigFriction::test_rig));
 }
 
 /// The robot in a random state, under random torques and a force on one of its bodies.
@@ -66,7 +66,7 @@ Vector2d linear_momentum(const PlanarRrr& robot, const Vector3d& pose, const Vec
 }
 
 TEST(PlanarLegBases, BearWhatChangesTheMomentumOfTheWholeRobot) {
-  const auto robot = bench();
+  const auto robot = rig();
   const PlanarLegBases bases(robot, first_moments);
   std::mt19937_64 random(7);
   for (int body = 0; body < 7; ++body) {
@@ -89,7 +89,7 @@ TEST(PlanarLegBases, BearWhatChangesTheMomentumOfTheWholeRobot) {
 }
 
 TEST(PlanarLegBases, MomentumChangesByWhatIsKnownByTheBaseForcesAndByWhatIsFelt) {
-  const auto robot = bench();
+  const auto robot = rig();
   const PlanarLegBases bases(robot, first_moments);
   std::mt19937_64 random(8);
   for (int body = 0; body < 7; ++body) {
@@ -120,7 +120,7 @@ TEST(PlanarLegBases, MomentumChangesByWhatIsKnownByTheBaseForcesAndByWhatIsFelt)
 }
 
 TEST(PlanarLegBases, FeelWhatThePlatformDoesNotOfAForceOnALink) {
-  const auto robot = bench();
+  const auto robot = rig();
   const PlanarLegBases bases(robot, first_moments);
   std::mt19937_64 random(9);
   for (int body = 1; body < 7; ++body) {
@@ -150,8 +150,7 @@ TEST(PlanarLegBases, FeelWhatThePlatformDoesNotOfAForceOnALink) {
 // ---------------------------------------------------------------- by hand
 
 TEST(PlanarLegBases, BearNothingAtRestUnlessSomethingPushes) {
-  const auto robot =
-      std::make_shared<const PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const auto robot = std::make_shared<const PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
   const PlanarLegBases bases(robot, first_moments);
   Kinematics at;
   robot->kinematics(Vector3d::Zero(), Vector3d::Zero(), at);

@@ -51,7 +51,7 @@ TEST_P(PlanarMotionPath, MovesPointsAndTakesForcesAsTheGeneralOne) {
 
 // Half a second of free motion without friction, by the classical Runge-Kutta method.
 TEST_P(PlanarMotionPath, FreeMotionKeepsItsEnergy) {
-  const PlanarRrr free(bench_robot(GetParam(), BenchFriction::none));
+  const PlanarRrr free(rig_robot(GetParam(), RigFriction::none));
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   Eigen::Vector3d x(0.02, -0.05, -0.1);
   Eigen::Vector3d v(0.2, 0.1, -0.5);

@@ -12,13 +12,12 @@
 namespace flinch::test {
 namespace {
 
-PlanarRrrParameters good() { return bench_robot(BenchGeometry::individual, BenchFriction::test_bench); }
+PlanarRrrParameters good() { return rig_robot(RigGeometry::individual, RigFriction::test_rig); }
 
 TEST(PlanarRrrParameters, ThatArePublishedHaveNoProblems) {
-  for (const BenchGeometry geometry : {BenchGeometry::individual, BenchGeometry::nominal}) {
-    for (const BenchFriction friction :
-         {BenchFriction::none, BenchFriction::test_bench, BenchFriction::simulation}) {
-      EXPECT_TRUE(problems(bench_robot(geometry, friction)).empty());
+  for (const RigGeometry geometry : {RigGeometry::individual, RigGeometry::nominal}) {
+    for (const RigFriction friction : {RigFriction::none, RigFriction::test_rig, RigFriction::simulation}) {
+      EXPECT_TRUE(problems(rig_robot(geometry, friction)).empty());
     }
   }
 }
@@ -91,25 +90,25 @@ TEST(PlanarRrrParameters, HomePoseMayBeAnywhereInReach) {
 }
 
 TEST(BaseParameters, OfThePublishedBodiesAreThePublishedOnes) {
-  const LegInertia inertia = base_parameters(bench_link1(), bench_link2(), 0.5816);
+  const LegInertia inertia = base_parameters(rig_link1(), rig_link2(), 0.5816);
   EXPECT_NEAR(inertia.p1, 0.605363, 5e-7);
   EXPECT_NEAR(inertia.p2, 0.0965503, 5e-8);
   EXPECT_NEAR(inertia.p3, 0.1356582, 5e-8);
-  EXPECT_NEAR(bench_link1().inertia, 0.06404, 5e-6);
-  EXPECT_NEAR(bench_link2().inertia, 0.02401, 5e-6);
+  EXPECT_NEAR(rig_link1().inertia, 0.06404, 5e-6);
+  EXPECT_NEAR(rig_link2().inertia, 0.02401, 5e-6);
 }
 
-TEST(BenchFrictionPreset, IsRescaledToTheTorqueConstantsOfToday) {
-  const PlanarRrrParameters bench = good();
+TEST(RigFrictionPreset, IsRescaledToTheTorqueConstantsOfToday) {
+  const PlanarRrrParameters rig = good();
   const double viscous[] = {0.00165, 0.00076, 0.00107};
   const double coulomb[] = {0.5650, 0.6447, 0.5904};
   for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_NEAR(bench.legs[i].active_friction.viscous, viscous[i], 5.1e-6);
-    EXPECT_NEAR(bench.legs[i].active_friction.coulomb, coulomb[i], 5.1e-5);
+    EXPECT_NEAR(rig.legs[i].active_friction.viscous, viscous[i], 5.1e-6);
+    EXPECT_NEAR(rig.legs[i].active_friction.coulomb, coulomb[i], 5.1e-5);
   }
-  EXPECT_EQ(bench.legs[1].passive_friction.viscous, 0.2236);
-  EXPECT_EQ(bench.legs[1].passive_friction.coulomb, 0.0381);
-  const PlanarRrrParameters simulated = bench_robot(BenchGeometry::nominal, BenchFriction::simulation);
+  EXPECT_EQ(rig.legs[1].passive_friction.viscous, 0.2236);
+  EXPECT_EQ(rig.legs[1].passive_friction.coulomb, 0.0381);
+  const PlanarRrrParameters simulated = rig_robot(RigGeometry::nominal, RigFriction::simulation);
   EXPECT_EQ(simulated.legs[2].active_friction.viscous, 1.0);
   EXPECT_EQ(simulated.legs[2].active_friction.coulomb, 0.0);
 }

@@ -9,7 +9,7 @@ namespace flinch {
 namespace {
 
 TEST(QuantityUnits, OfThePlanarRobotAreThoseOfTwoTranslationsARotationAndRevoluteDrives) {
-  const PlanarRrr robot(bench_robot(BenchGeometry::individual, BenchFriction::none));
+  const PlanarRrr robot(rig_robot(RigGeometry::individual, RigFriction::none));
   const std::map<std::string, std::string> expected = {
       {"<pose>", "m, m, rad"},           {"<displacement>", "m, m, rad"},
       {"<velocity>", "m/s, m/s, rad/s"}, {"<acceleration>", "m/s^2, m/s^2, rad/s^2"},

@@ -36,10 +36,10 @@ inline std::vector<PoseAndVelocity> random_motions(const PlanarRrr& robot, int c
   return motions;
 }
 
-/// Tests that run for both published geometries, with the friction of the test bench.
-class BothGeometries : public ::testing::TestWithParam<BenchGeometry> {
+/// Tests that run for both published geometries, with the friction of the test rig.
+class BothGeometries : public ::testing::TestWithParam<RigGeometry> {
  protected:
-  PlanarRrr robot{bench_robot(GetParam(), BenchFriction::test_bench)};
+  PlanarRrr robot{rig_robot(GetParam(), RigFriction::test_rig)};
   std::vector<PoseAndVelocity> motions = random_motions(robot, 300);
 
   Kinematics kinematics_at(const Eigen::Vector3d& pose, const Eigen::Vector3d& velocity) const {
@@ -54,12 +54,12 @@ class BothGeometries : public ::testing::TestWithParam<BenchGeometry> {
   }
 };
 
-inline std::string geometry_name(const ::testing::TestParamInfo<BenchGeometry>& info) {
-  return info.param == BenchGeometry::individual ? "Individual" : "Nominal";
+inline std::string geometry_name(const ::testing::TestParamInfo<RigGeometry>& info) {
+  return info.param == RigGeometry::individual ? "Individual" : "Nominal";
 }
 
 }  // namespace flinch::test
 
-#define FLINCH_FOR_BOTH_GEOMETRIES(suite) \
-  INSTANTIATE_TEST_SUITE_P(               \
-      Bench, suite, ::testing::Values(BenchGeometry::individual, BenchGeometry::nominal), geometry_name)
+#define FLINCH_FOR_BOTH_GEOMETRIES(suite)                                                                  \
+  INSTANTIATE_TEST_SUITE_P(Bench, suite, ::testing::Values(RigGeometry::individual, RigGeometry::nominal), \
+                           geometry_name)

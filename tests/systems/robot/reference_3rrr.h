@@ -35,9 +35,9 @@ struct ReferenceLeg {
   }
 };
 
-inline std::vector<ReferenceLeg> reference_legs(BenchGeometry geometry) {
+inline std::vector<ReferenceLeg> reference_legs(RigGeometry geometry) {
   constexpr double degree = std::numbers::pi / 180.0;
-  if (geometry == BenchGeometry::nominal) {
+  if (geometry == RigGeometry::nominal) {
     return {{90.0 * degree, 0.6829, 0.0, 0.107, 0.5816, 0.6198},
             {210.0 * degree, 0.6829, 120.0 * degree, 0.107, 0.5816, 0.6198},
             {330.0 * degree, 0.6829, 240.0 * degree, 0.107, 0.5816, 0.6198}};

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const PlanarRrr bench(bench_robot(BenchGeometry::individual, BenchFriction::none));
+const PlanarRrr rig(rig_robot(RigGeometry::individual, RigFriction::none));
 
 // At home: |det A| 0.4519, |det B| 0.2216, sigma_sc 0.18533 m, drives at 24.379 to 25.963 degrees.
 const WorkspaceLimits just_outside_home{.centre = {},
@@ -27,12 +27,10 @@ const WorkspaceLimits just_outside_home{.centre = {},
                                         .min_active = 0.4254,
                                         .max_active = 0.4532};
 
-TEST(WorkspaceLimits, AllowEverythingByDefault) {
-  EXPECT_THAT(problems(WorkspaceLimits{}, bench), IsEmpty());
-}
+TEST(WorkspaceLimits, AllowEverythingByDefault) { EXPECT_THAT(problems(WorkspaceLimits{}, rig), IsEmpty()); }
 
 TEST(WorkspaceLimits, MayLieJustOutsideTheHomePose) {
-  EXPECT_THAT(problems(just_outside_home, bench), IsEmpty());
+  EXPECT_THAT(problems(just_outside_home, rig), IsEmpty());
 }
 
 TEST(WorkspaceLimits, MustNotExcludeTheHomePose) {
@@ -45,7 +43,7 @@ TEST(WorkspaceLimits, MustNotExcludeTheHomePose) {
                                .min_active = 0.4256,
                                .max_active = 0.4531};
   EXPECT_THAT(
-      problems(limits, bench),
+      problems(limits, rig),
       ElementsAre(
           "max_distance is -0.1 m; it must be at least that at the home pose, 0 m",
           "max_rotation is nan rad (nan deg); it must be at least that at the home pose, 0 rad (0 deg)",
@@ -57,14 +55,14 @@ TEST(WorkspaceLimits, MustNotExcludeTheHomePose) {
 
 Kinematics at_home() {
   Kinematics home;
-  bench.kinematics(bench.home_pose(), PlatformVector::Zero(3), home);
+  rig.kinematics(rig.home_pose(), PlatformVector::Zero(3), home);
   return home;
 }
 
 TEST(WorkspaceLimits, AreKeptWhereNoneIsExceeded) {
-  EXPECT_TRUE(is_within({}, bench, at_home()));
-  EXPECT_TRUE(is_within(just_outside_home, bench, at_home()));
-  EXPECT_FALSE(is_within({}, bench, Kinematics()));
+  EXPECT_TRUE(is_within({}, rig, at_home()));
+  EXPECT_TRUE(is_within(just_outside_home, rig, at_home()));
+  EXPECT_FALSE(is_within({}, rig, Kinematics()));
 }
 
 TEST(WorkspaceLimits, AreEachExceededAlone) {
@@ -77,7 +75,7 @@ TEST(WorkspaceLimits, AreEachExceededAlone) {
   narrow[4].min_self_collision_distance = 0.1854;
   narrow[5].min_active = 0.4256;
   narrow[6].max_active = 0.4531;
-  for (const WorkspaceLimits& one : narrow) EXPECT_FALSE(is_within(one, bench, at_home()));
+  for (const WorkspaceLimits& one : narrow) EXPECT_FALSE(is_within(one, rig, at_home()));
 }
 
 }  // namespace

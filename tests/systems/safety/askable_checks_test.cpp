@@ -54,7 +54,7 @@ std::vector<Lack> lacks() {
 
 /// Three drives that a torque of `torque` on the first turns the wrong way round.
 Change turned_round() {
-  const test::Posture home(*test::planar_bench(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0ns);
+  const test::Posture home(*test::planar_rig(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0ns);
   const Eigen::Matrix3d inertia = joint_space_dynamics(home.kinematics, home.dynamics).M_qa;
   const Eigen::Vector3d torque(30.0, 0.0, 0.0);
   const Eigen::Vector3d acceleration = -inertia.inverse() * torque;

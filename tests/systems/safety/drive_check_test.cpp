@@ -9,7 +9,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/diagram_builder.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -22,7 +22,7 @@ using Phase = DriveCheckStatus::Phase;
 class Trial {
  public:
   explicit Trial(const Eigen::Vector3d& gain, const DriveCheckSettings& settings = {})
-      : gain_(gain), block_(builder_.add<DriveCheck>("check", test::planar_bench(), settings)) {}
+      : gain_(gain), block_(builder_.add<DriveCheck>("check", test::planar_rig(), settings)) {}
 
   void tick() {
     JointReading reading = here_.joints;
@@ -64,7 +64,7 @@ class Trial {
 
   Eigen::Vector3d gain_, rate_ = Eigen::Vector3d::Zero(), displacement_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d holding_{1.0, -2.0, 0.5};
-  test::Posture here_{*test::planar_bench()};
+  test::Posture here_{*test::planar_rig()};
   DiagramBuilder builder_;
   DriveCheck& block_;
   InputPort<TorqueCommand> command_ = builder_.export_input("command", block_.command);
@@ -171,7 +171,7 @@ TEST(DriveCheck, RefusesSettingsThatCheckNothing) {
   for (const DriveCheckSettings& settings :
        {DriveCheckSettings{.torque = 0.0}, DriveCheckSettings{.least_gain = 0.0},
         DriveCheckSettings{.most_gain = 1.0}})
-    EXPECT_THROW(DriveCheck(test::planar_bench(), settings), SetupError);
+    EXPECT_THROW(DriveCheck(test::planar_rig(), settings), SetupError);
 }
 
 TEST(DriveCheck, NeverAllocates) {

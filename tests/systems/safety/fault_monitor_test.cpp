@@ -80,7 +80,7 @@ TEST(FaultMonitor, FindsLegsThatComeTooNearThePlatform) {
   FaultLimits limits;
   limits.workspace.min_platform_gap = 0.005;
   for (const double gap : {0.0, 0.0049, 0.0051, std::numeric_limits<double>::infinity()}) {
-    test::Safety safety{test::planar_bench(), limits};
+    test::Safety safety{test::planar_rig(), limits};
     test::Inputs inputs(*safety.robot, safety.ticking.now());
     inputs.posture.measures.platform_gap = gap;
     safety.tick(inputs);
@@ -143,7 +143,7 @@ TEST(FaultMonitor, NeverAllocates) {
 TEST(FaultLimits, MustNotExcludeTheRobotAtHome) {
   FaultLimits limits;
   limits.workspace.min_abs_det_A = 0.6;
-  EXPECT_THROW(FaultMonitor(test::planar_bench(), limits), SetupError);
+  EXPECT_THROW(FaultMonitor(test::planar_rig(), limits), SetupError);
 }
 
 TEST(FaultLimits, NameEverythingThatIsWrongWithThem) {
@@ -153,8 +153,8 @@ TEST(FaultLimits, NameEverythingThatIsWrongWithThem) {
   limits.max_control_error = nan;
   limits.max_torque_jump = -1.0;
   limits.longest_gap = -1ms;
-  EXPECT_EQ(problems(limits, *test::planar_bench()).size(), 5U);
-  EXPECT_TRUE(problems(FaultLimits(), *test::planar_bench()).empty());
+  EXPECT_EQ(problems(limits, *test::planar_rig()).size(), 5U);
+  EXPECT_TRUE(problems(FaultLimits(), *test::planar_rig()).empty());
 }
 
 }  // namespace

@@ -198,8 +198,7 @@ std::map<GateFault, std::vector<Way>> ways_of_pose_and_workspace() {
 
 std::map<GateFault, std::vector<Way>> ways_of_laws_and_operator() {
   const auto wanted = [](double angle) {
-    return
-        [pose = pose_at_drive_error(*test::planar_bench(), angle)](Inputs& in) { in.reference.pose = pose; };
+    return [pose = pose_at_drive_error(*test::planar_rig(), angle)](Inputs& in) { in.reference.pose = pose; };
   };
   constexpr ReactionMode recover = ReactionMode::recover;
   const auto touched = [](ContactLevel level, ReactionMode mode) {

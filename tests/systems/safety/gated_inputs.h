@@ -5,12 +5,12 @@
 #include "systems/framework/diagram_builder.h"
 #include "systems/safety/fault_monitor.h"
 #include "systems/safety/torque_gate.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch::test {
 
-/// All that monitor and gate see at a tick. Healthy by default: the bench at rest at home.
+/// All that monitor and gate see at a tick. Healthy by default: the rig at rest at home.
 struct Inputs {
   Inputs(const ParallelRobot& robot, Time tick)
       : now(tick), posture(robot, PlatformVector::Zero(3), PlatformVector::Zero(3), now) {
@@ -66,7 +66,7 @@ struct Safety {
   FaultMask present() const { return ticking.get(monitor.faults).present; }
   const GateStatus& status() const { return ticking.get(gate.status); }
 
-  std::shared_ptr<const PlanarRrr> robot = planar_bench();
+  std::shared_ptr<const PlanarRrr> robot = planar_rig();
   FaultLimits limits = {};
   DiagramBuilder builder{};
   FaultMonitor& monitor = builder.add<FaultMonitor>("monitor", robot, limits);

@@ -56,26 +56,26 @@ Samples errors_of(const std::function<void(double time, ImuError&)>& failure, do
 
 TEST(ImuErrors, AreExplainedByWhatMadeThem) {
   EXPECT_EQ(explanation(errors_of([](double, ImuError& error) { error.force.x() += 3.0; }), spread),
-            ImuDoubt::biased);
+            ImuFault::biased);
   EXPECT_EQ(explanation(errors_of([](double, ImuError& error) { error.turning.z() -= 0.2; }), spread),
-            ImuDoubt::biased);
+            ImuFault::biased);
   const auto late = errors_of([](double, ImuError& error) {
     error.force -= 2e-3 * error.force_slope;
     error.turning -= 2e-3 * error.turning_slope;
   });
-  EXPECT_EQ(explanation(late, spread), ImuDoubt::late);
+  EXPECT_EQ(explanation(late, spread), ImuFault::late);
   const Eigen::Vector3d angle(0.05, -0.1, 0.2);
   const auto turned = errors_of([&angle](double, ImuError& error) {
     error.force += angle.cross(error.expected_force);
     error.turning += angle.cross(error.expected_turning);
   });
-  EXPECT_EQ(explanation(turned, spread), ImuDoubt::turned);
+  EXPECT_EQ(explanation(turned, spread), ImuFault::turned);
   const auto odd = [](double rate) {
     return errors_of(
         [rate](double time, ImuError& error) { error.force.x() += 5.0 * std::sin(rate * time); });
   };
-  EXPECT_EQ(explanation(odd(600.0), spread), ImuDoubt::contradicted);
-  EXPECT_EQ(explanation(odd(3000.0), spread), ImuDoubt::noisy) << "it jumps to and fro";
+  EXPECT_EQ(explanation(odd(600.0), spread), ImuFault::contradicted);
+  EXPECT_EQ(explanation(odd(3000.0), spread), ImuFault::noisy) << "it jumps to and fro";
 }
 
 TEST(ImuErrors, CountsThoseThatAreContradicted) {

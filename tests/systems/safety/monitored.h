@@ -3,17 +3,17 @@
 #include <memory>
 
 #include "systems/safety/plausibility_monitor.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch::test {
 
-/// A PlausibilityMonitor of the planar bench, alone: a test says what it is told.
+/// A PlausibilityMonitor of the planar rig, alone: a test says what it is told.
 struct Monitored {
   explicit Monitored(const PlausibilityLimits& limits)
       : block(builder.add<PlausibilityMonitor>("monitor", robot, limits)) {}
 
-  std::shared_ptr<const PlanarRrr> robot = planar_bench();
+  std::shared_ptr<const PlanarRrr> robot = planar_rig();
   DiagramBuilder builder{"test", 1ms};
   PlausibilityMonitor& block;
   InputPort<JointReading> joints = builder.export_input("joints", block.joints);

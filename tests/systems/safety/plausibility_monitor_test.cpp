@@ -163,7 +163,7 @@ TEST(PlausibilityMonitor, WondersWhyNothingMovesThoughTorquesChange) {
 /// 12 Nm and more, and next to nothing moves from then on. `stuck`: the same torques, and it never moved.
 std::optional<int> coming_to_rest(double jerk, bool stuck) {
   constexpr double hardest = 25.0;  // [rad/s^2]
-  const test::Posture home(*test::planar_bench(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0ns);
+  const test::Posture home(*test::planar_rig(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 0ns);
   const Eigen::Matrix3d inertia = joint_space_dynamics(home.kinematics, home.dynamics).M_qa;
   Watched watched;
   const auto slow_down = [=, k = 0](Told& told) mutable {
@@ -353,7 +353,7 @@ TEST(PlausibilityMonitor, RefusesLimitsThatCouldNotBeKept) {
   bad.parity = 0.0;
   bad.torque_constant = Eigen::Vector2d::Ones();
   try {
-    const PlausibilityMonitor monitor(test::planar_bench(), bad);
+    const PlausibilityMonitor monitor(test::planar_rig(), bad);
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 2U);

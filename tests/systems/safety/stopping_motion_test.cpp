@@ -4,7 +4,7 @@
 
 #include "systems/safety/fault_table.h"
 #include "tests/support/allocations.h"
-#include "tests/support/planar_bench.h"
+#include "tests/support/planar_rig.h"
 #include "tests/support/ticking.h"
 
 namespace flinch {
@@ -25,7 +25,7 @@ struct Stopping {
     return ticking.get(block.trusted).valid();
   }
 
-  test::Posture posture{*test::planar_bench(), Eigen::Vector3d(0.1, 0.0, 0.0)};
+  test::Posture posture{*test::planar_rig(), Eigen::Vector3d(0.1, 0.0, 0.0)};
   DiagramBuilder builder{"test", 1ms};
   StoppingMotion& block = builder.add<StoppingMotion>("stopping");
   InputPort<PlatformMotion> motion = builder.export_input("motion", block.motion);

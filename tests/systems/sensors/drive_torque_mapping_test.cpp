@@ -20,8 +20,8 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double T = 1e-3;
 
-std::shared_ptr<const PlanarRrr> bench() {
-  return std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+std::shared_ptr<const PlanarRrr> rig() {
+  return std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
 }
 
 /// Aligned with a velocity of this form, or not.
@@ -31,7 +31,7 @@ DriveTorqueMapping& add_mapping(DiagramBuilder& builder, std::optional<LowPassFo
                                 Time period = 1ms) {
   const auto aligned_with = form ? std::optional(LowPassSettings{30.0, *form}) : std::nullopt;
   return builder.add<DriveTorqueMapping>(
-      "mapping", bench(), DriveTorqueSettings{torque_constant, Sampling::each(period), cogging, delay},
+      "mapping", rig(), DriveTorqueSettings{torque_constant, Sampling::each(period), cogging, delay},
       aligned_with);
 }
 
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(DriveTorqueMapping, AlignedTorque,
 TEST_P(AlignedTorque, LagsAsTheVelocityDoes) {
   DiagramBuilder builder("both");
   auto& velocity =
-      builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
+      builder.add<VelocityFilter>("velocity", rig(), VelocityFilterSettings{{30.0, GetParam()}, {}});
   auto& mapping = add_mapping(builder, GetParam());
   builder.connect(builder.optional_input<JointReading>("encoders"), mapping.joints);
   builder.connect(builder.optional_input<StationStatus>("brakes"), mapping.status);
@@ -209,7 +209,7 @@ TEST_P(AlignedTorque, LagsAsTheVelocityDoes) {
 TEST_P(AlignedTorque, ExplainsTheChangeOfTheFilteredMomentumAsTheMeanOfItsTwoEnds) {
   DiagramBuilder builder("mass");
   auto& velocity =
-      builder.add<VelocityFilter>("velocity", bench(), VelocityFilterSettings{{30.0, GetParam()}, {}});
+      builder.add<VelocityFilter>("velocity", rig(), VelocityFilterSettings{{30.0, GetParam()}, {}});
   auto& mapping = add_mapping(builder, GetParam());
   builder.connect(builder.optional_input<JointReading>("encoders"), mapping.joints);
   builder.connect(builder.optional_input<StationStatus>("brakes"), mapping.status);
@@ -282,7 +282,7 @@ TEST(DriveTorqueMapping, AddsTheMeanOfTheCoggingOnTheWay) {
   EXPECT_LT((mapping.see_at(quarter, current).torque - current - wave().sine).norm(), 1e-14);
 }
 
-// The integral over a millisecond at the largest speed of the bench, 24 waves a turn.
+// The integral over a millisecond at the largest speed of the rig, 24 waves a turn.
 TEST(DriveTorqueMapping, KnowsTheMeanOfTheCoggingOfFastDrives) {
   const Cogging waves{{{JointVector::Constant(3, 2.0 * std::numbers::pi / 24.0), JointVector::Ones(3),
                         JointVector::Zero(3)}}};
@@ -337,7 +337,7 @@ TEST(DriveTorqueMapping, SaysAllThatIsWrongWithItsSettings) {
   const DriveTorqueSettings settings{
       JointVector{{6.1, 0.0}}, {}, {{{JointVector::Zero(3), JointVector::Zero(3), JointVector::Zero(3)}}}};
   try {
-    DriveTorqueMapping mapping(bench(), settings, LowPassSettings{0.0, LowPassForm::tustin});
+    DriveTorqueMapping mapping(rig(), settings, LowPassSettings{0.0, LowPassForm::tustin});
     FAIL();
   } catch (const SetupError& error) {
     EXPECT_EQ(error.problems().size(), 4U) << error.what();

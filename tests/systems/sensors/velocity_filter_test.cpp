@@ -48,7 +48,7 @@ struct Filter {
 
  private:
   VelocityFilter& add(LowPassForm form) {
-    const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+    const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
     return builder.add<VelocityFilter>("filter", robot, VelocityFilterSettings{{30.0, form}, {}});
   }
   InputPort<JointReading> input() { return builder.export_input("joints", block.joints); }
@@ -190,7 +190,7 @@ TEST(VelocityFilter, IsNeverValidWhenAllThatItSeesIsNotFinite) {
 }
 
 TEST(VelocityFilter, RunsInsideAFasterDiagram) {
-  const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
   DiagramBuilder builder("fast", 250us);
   auto& block = builder.add<VelocityFilter>("filter", robot, VelocityFilterSettings{});
   const auto joints = builder.export_input("joints", block.joints);
@@ -213,7 +213,7 @@ TEST(VelocityFilter, DoesNotAllocate) {
 }
 
 TEST(VelocityFilter, AsksForAPositiveCutoffFrequency) {
-  const auto robot = std::make_shared<PlanarRrr>(bench_robot(BenchGeometry::nominal, BenchFriction::none));
+  const auto robot = std::make_shared<PlanarRrr>(rig_robot(RigGeometry::nominal, RigFriction::none));
   EXPECT_THROW(VelocityFilter(robot, {{-1.0, LowPassForm::tustin}, {}}), SetupError);
 }
 

@@ -21,10 +21,10 @@ TEST(DrivenShare, MayBeThatOfAnyCurrentLoopFromAKilohertzOn) {
   for (const double bandwidth : {1e3, 2e3, 5e3, 50e3}) {
     for (Time time = 1us; time < 1ms; time += 1us) {
       const double share = 1.0 - std::exp(-to_seconds(time) * 2.0 * 3.141592653589793 * bandwidth);
-      EXPECT_NEAR(share, driven_share(time), driven_doubt(time) + 0.03) << to_seconds(time) << " s";
+      EXPECT_NEAR(share, driven_share(time), driven_uncertainty(time) + 0.03) << to_seconds(time) << " s";
     }
   }
-  EXPECT_EQ(driven_doubt(1ms), 0.0) << "what is held is known";
+  EXPECT_EQ(driven_uncertainty(1ms), 0.0) << "what is held is known";
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "systems/framework/monotonic_clock.h"
 #include "systems/framework/recording.h"
-#include "tests/apps/flinch/bus/bench_on_the_bus.h"
+#include "tests/apps/flinch/bus/rig_on_the_bus.h"
 #if FLINCH_HAS_LIVE_VIEW
 #include "tests/experiments/live_view/loopback_connection.h"
 #endif
@@ -14,12 +14,12 @@
 namespace flinch {
 namespace {
 
-using test::BenchOnTheBus;
+using test::RigOnTheBus;
 using Input = test::OtherProgram::Start::Input;
 
-test::OtherProgram::Start attended(const BenchOnTheBus& bench, Input input,
+test::OtherProgram::Start attended(const RigOnTheBus& rig, Input input,
                                    const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = bench.run_arguments();
+  std::vector<std::string> arguments = rig.run_arguments();
   arguments.insert(arguments.end(), {"--attended"});
   arguments.insert(arguments.end(), more.begin(), more.end());
   test::OtherProgram::Start start = test::flinch_program(arguments);
@@ -33,9 +33,9 @@ class AttendedRun : public testing::Test {
   void begin(const std::string& scenario, Input input = Input::pipe,
              const std::vector<std::string>& more = {}) {
     run.reset();
-    bench.emplace(scenario);
+    rig.emplace(scenario);
     seen_ = 0;
-    run.emplace(attended(*bench, input, more));
+    run.emplace(attended(*rig, input, more));
   }
   void type(const std::string& text) { run->type(text); }
   /// Whether `text` is told, behind all that was seen before.
@@ -54,7 +54,7 @@ class AttendedRun : public testing::Test {
     if (test::machine_stall() >= test::noticeable_stall) GTEST_SKIP() << test::not_measured() << ": " << what;
     FAIL() << what << "\n" << run->output();
   }
-  std::optional<BenchOnTheBus> bench;
+  std::optional<RigOnTheBus> rig;
   std::optional<test::OtherProgram> run;
 
  private:
@@ -106,7 +106,7 @@ TEST_F(AttendedRun, OutlastsItsScenarioAndEndsWithItsInput) {
   EXPECT_TRUE(run->is_running()) << run->output();
   run->end_input();
   EXPECT_TRUE(run->wait(20s)) << run->output();
-  const Recording recording = read_recording(bench->place / "live/run.h5");
+  const Recording recording = read_recording(rig->place / "live/run.h5");
   EXPECT_GT(to_seconds(Time(recording.time_ns.back())), 3.5);
 }
 

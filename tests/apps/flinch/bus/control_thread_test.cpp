@@ -15,8 +15,8 @@
 #include "systems/framework/realtime_thread.h"
 #include "systems/framework/recorder.h"
 #include "systems/robot/quantity_units.h"
-#include "tests/apps/flinch/bus/bench_on_the_bus.h"
 #include "tests/apps/flinch/bus/dds_calls.h"
+#include "tests/apps/flinch/bus/rig_on_the_bus.h"
 #include "tests/support/allocations.h"
 #include "tests/support/locks.h"
 #include "tests/support/sanitized.h"
@@ -26,11 +26,11 @@ namespace {
 
 TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
   if (test::sanitized()) GTEST_SKIP() << "a sanitizer replaces what is counted here";
-  const test::BenchOnTheBus bench;
-  const Scenario scenario = read_scenario(bench.scenario_file);
+  const test::RigOnTheBus rig;
+  const Scenario scenario = read_scenario(rig.scenario_file);
   const LiveExperiment experiment = build_live_experiment(scenario);
   const int priority = permits_realtime(80) ? 80 : 0;
-  const DdsBus bus({.domain = static_cast<std::uint32_t>(std::stoul(bench.domain)),
+  const DdsBus bus({.domain = static_cast<std::uint32_t>(std::stoul(rig.domain)),
                     .interface = "lo",
                     .peers = {},
                     .realtime_priority = priority});
@@ -95,10 +95,10 @@ TEST(ControlThread, TakesNoMemoryAndNoLockAndNeverCallsTheBus) {
 
 TEST(ControlThread, IsWatchedByCountersThatCount) {
   if (test::sanitized()) GTEST_SKIP() << "a sanitizer replaces what is counted here";
-  const test::BenchOnTheBus bench;
-  const Scenario scenario = read_scenario(bench.scenario_file);
+  const test::RigOnTheBus rig;
+  const Scenario scenario = read_scenario(rig.scenario_file);
   const LiveExperiment experiment = build_live_experiment(scenario);
-  const DdsBus bus({.domain = static_cast<std::uint32_t>(std::stoul(bench.domain))});
+  const DdsBus bus({.domain = static_cast<std::uint32_t>(std::stoul(rig.domain))});
   const DdsStation station(bus, *experiment.diagram, experiment.station, {});
   const std::int64_t calls = test::dds_calls(), locks = test::locks();
   EXPECT_GE(station.peers(), 0);

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/apps/flinch/bus/lockstep_bench.h"
+#include "tests/apps/flinch/bus/lockstep_rig.h"
 #include "tests/apps/flinch/documented_keys.h"
 #include "tests/support/busy_loops.h"
 
@@ -12,40 +12,40 @@ namespace flinch {
 namespace {
 
 using nlohmann::json;
-using test::BenchOnTheBus;
-using test::LockstepBench;
+using test::LockstepRig;
+using test::RigOnTheBus;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
 std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
-  return LockstepBench::joined(std::move(arguments), more);
+  return LockstepRig::joined(std::move(arguments), more);
 }
 
 /// So long that no machine comes to its end before others have done what they shall.
 const std::vector<std::string> for_long = {"--set", "duration_s=600"};
 
 TEST(Lockstep, IsTheRunInSimulationBitForBitWhateverTheMachineDoes) {
-  const LockstepBench lockstep("platform_collision");
+  const LockstepRig lockstep("platform_collision");
   const test::BusyLoops beside(2);
   for (const char* const out : {"first", "second"}) EXPECT_EQ(lockstep.difference(out), "");
 }
 
 TEST(Lockstep, IsSoForEveryKindOfRobotWithItsFaultsAndOperators) {
-  EXPECT_EQ(LockstepBench("brought_back").difference("live"), "");
-  EXPECT_EQ(LockstepBench("hexapod_collision").difference("live"), "");
-  EXPECT_EQ(LockstepBench("square", {"encoder2:drifting@0.5:-5"}).difference("live"), "");
-  EXPECT_EQ(LockstepBench("square", {"link:delayed@0.6:0.005"}).difference("live"), "");
+  EXPECT_EQ(LockstepRig("brought_back").difference("live"), "");
+  EXPECT_EQ(LockstepRig("hexapod_collision").difference("live"), "");
+  EXPECT_EQ(LockstepRig("square", {"encoder2:drifting@0.5:-5"}).difference("live"), "");
+  EXPECT_EQ(LockstepRig("square", {"link:delayed@0.6:0.005"}).difference("live"), "");
 }
 
 TEST(Lockstep, IsWhatTheRobotSaysUnlessSomebodyChooses) {
-  const BenchOnTheBus bench("platform_collision", {"--lockstep"});
-  const test::Outcome live = test::flinch(with(bench.run_arguments(), {"--json"}));
+  const RigOnTheBus rig("platform_collision", {"--lockstep"});
+  const test::Outcome live = test::flinch(with(rig.run_arguments(), {"--json"}));
   EXPECT_EQ(live.status, 0) << live.out << live.err;
   const json printed = json::parse(live.out);
   EXPECT_TRUE(printed.at("computer").is_null()) << "no clock took part";
   EXPECT_THAT(test::undocumented_keys(printed, "JSON"), IsEmpty());
-  EXPECT_THAT(bench.server->output(), HasSubstr("in lockstep"));
-  const test::Outcome told = test::flinch(bench.run_arguments());
+  EXPECT_THAT(rig.server->output(), HasSubstr("in lockstep"));
+  const test::Outcome told = test::flinch(rig.run_arguments());
   EXPECT_THAT(told.err, HasSubstr("in lockstep: robot and controller wait for one another"));
 }
 
@@ -58,19 +58,19 @@ std::string swapped_plant(const std::vector<std::string>& arguments) {
 }
 
 TEST(Lockstep, GivesAProgramOfOnesOwnTheSameRobotAsItsSimulation) {
-  const BenchOnTheBus bench("platform_collision", {"--lockstep"});
+  const RigOnTheBus rig("platform_collision", {"--lockstep"});
   const std::string simulated = swapped_plant({});
   EXPECT_THAT(simulated, HasSubstr("contact detected at 0."));
-  EXPECT_EQ(swapped_plant({bench.domain}), simulated);
+  EXPECT_EQ(swapped_plant({rig.domain}), simulated);
   EXPECT_THAT(swapped_plant({"loop"}), HasSubstr("DOMAIN: is 'loop'; it must be a whole number"));
 }
 
 TEST(Lockstep, TellsAtTheEndWhatItServed) {
-  BenchOnTheBus bench("platform_collision", {"--lockstep", "--json"});
-  ASSERT_EQ(test::flinch(bench.run_arguments()).status, 0);
-  bench.server->interrupt();
-  EXPECT_EQ(bench.server->wait(20s), 0);
-  const json served = json::parse(bench.server->output());
+  RigOnTheBus rig("platform_collision", {"--lockstep", "--json"});
+  ASSERT_EQ(test::flinch(rig.run_arguments()).status, 0);
+  rig.server->interrupt();
+  EXPECT_EQ(rig.server->wait(20s), 0);
+  const json served = json::parse(rig.server->output());
   EXPECT_THAT(test::undocumented_keys(served, "JSON"), IsEmpty());
   EXPECT_EQ(served["ticks"], 1200);
   EXPECT_EQ(served["runs"], 1);
@@ -78,57 +78,57 @@ TEST(Lockstep, TellsAtTheEndWhatItServed) {
 }
 
 TEST(Lockstep, IsRefusedWhereTheOtherEndGoesByTheClock) {
-  const BenchOnTheBus bench("platform_collision", {"--real-time"});
-  const test::Outcome live = test::flinch(with(bench.run_arguments(), {"--lockstep"}));
+  const RigOnTheBus rig("platform_collision", {"--real-time"});
+  const test::Outcome live = test::flinch(with(rig.run_arguments(), {"--lockstep"}));
   EXPECT_EQ(live.status, 2);
   EXPECT_THAT(live.err, HasSubstr("the robot goes by the clock, and this program in lockstep"));
-  EXPECT_FALSE(std::filesystem::exists(bench.place / "live"));
+  EXPECT_FALSE(std::filesystem::exists(rig.place / "live"));
 }
 
 TEST(Lockstep, RefusesAControllerThatGoesByTheClock) {
-  BenchOnTheBus bench("platform_collision", {"--lockstep"});
+  RigOnTheBus rig("platform_collision", {"--lockstep"});
   for (const std::vector<std::string>& arguments :
-       {with(bench.run_arguments(), {"--real-time"}), bench.on_bus({"link", bench.scenario_file})}) {
+       {with(rig.run_arguments(), {"--real-time"}), rig.on_bus({"link", rig.scenario_file})}) {
     const test::Outcome live = test::flinch(arguments);
     EXPECT_EQ(live.status, 2);
     EXPECT_THAT(live.err,
                 HasSubstr("the robot goes in lockstep with its controller, and this program by the"));
   }
-  EXPECT_FALSE(std::filesystem::exists(bench.place / "live"));
-  EXPECT_TRUE(bench.server->writes("a program commands by the clock, and is not obeyed", 20s))
-      << bench.server->output();
+  EXPECT_FALSE(std::filesystem::exists(rig.place / "live"));
+  EXPECT_TRUE(rig.server->writes("a program commands by the clock, and is not obeyed", 20s))
+      << rig.server->output();
 }
 
 TEST(Lockstep, EndsWhereTheRobotIsGone) {
-  BenchOnTheBus bench("square", {"--lockstep"});
+  RigOnTheBus rig("square", {"--lockstep"});
   test::OtherProgram run(
-      test::flinch_program(with(with(bench.run_arguments(), for_long), {"--patience", "1"})));
+      test::flinch_program(with(with(rig.run_arguments(), for_long), {"--patience", "1"})));
   ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
-  bench.server->kill();
+  rig.server->kill();
   EXPECT_TRUE(run.writes("ended:     the robot has sent nothing for 1 s", 60s)) << run.output();
   EXPECT_EQ(run.wait(20s), 1) << run.output();
   EXPECT_THAT(run.output(), HasSubstr("verdict: bad\n  - the robot has sent nothing for 1 s\n"));
-  const Recording recording = read_recording(bench.place / "live/run.h5");
+  const Recording recording = read_recording(rig.place / "live/run.h5");
   EXPECT_EQ(recording.attributes.at("run.ended"), "the robot has sent nothing for 1 s");
 }
 
 TEST(Lockstep, WaitsForTheNextControllerWhereOneIsGone) {
-  BenchOnTheBus bench("square", {"--lockstep", "--patience", "1"});
+  RigOnTheBus rig("square", {"--lockstep", "--patience", "1"});
   {
-    test::OtherProgram run(test::flinch_program(with(bench.run_arguments("killed"), for_long)));
+    test::OtherProgram run(test::flinch_program(with(rig.run_arguments("killed"), for_long)));
     ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
     run.kill();
   }
-  EXPECT_TRUE(bench.server->writes("the controller has sent nothing for 1 s", 60s)) << bench.server->output();
-  EXPECT_EQ(test::flinch(bench.run_arguments("next")).status, 0);
+  EXPECT_TRUE(rig.server->writes("the controller has sent nothing for 1 s", 60s)) << rig.server->output();
+  EXPECT_EQ(test::flinch(rig.run_arguments("next")).status, 0);
 }
 
 TEST(Lockstep, TakesOneControllerOnly) {
-  const BenchOnTheBus bench("square", {"--lockstep", "--patience", "120"});
-  test::OtherProgram first(test::flinch_program(with(bench.run_arguments("first"), for_long)));
+  const RigOnTheBus rig("square", {"--lockstep", "--patience", "120"});
+  test::OtherProgram first(test::flinch_program(with(rig.run_arguments("first"), for_long)));
   ASSERT_TRUE(first.writes("gate open", 20s)) << first.output();
   first.stop();
-  const test::Outcome second = test::flinch(with(bench.run_arguments("second"), {"--patience", "0.5"}));
+  const test::Outcome second = test::flinch(with(rig.run_arguments("second"), {"--patience", "0.5"}));
   EXPECT_EQ(second.status, 2) << second.out;
   EXPECT_THAT(second.err, HasSubstr("obeys another program"));
   first.resume();
@@ -137,26 +137,25 @@ TEST(Lockstep, TakesOneControllerOnly) {
 }
 
 TEST(Lockstep, StopsTheRobotOnCtrlC) {
-  const BenchOnTheBus bench("square", {"--lockstep"});
-  test::OtherProgram run(test::flinch_program(with(bench.run_arguments(), for_long)));
+  const RigOnTheBus rig("square", {"--lockstep"});
+  test::OtherProgram run(test::flinch_program(with(rig.run_arguments(), for_long)));
   ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
   run.interrupt();
   EXPECT_EQ(run.wait(60s), 3) << run.output();
 }
 
 TEST(Lockstep, RefusesWhatDoesNotFit) {
-  const BenchOnTheBus bench("platform_collision", {"--lockstep"});
-  const test::Outcome both = test::flinch(with(bench.run_arguments(), {"--lockstep", "--real-time"}));
+  const RigOnTheBus rig("platform_collision", {"--lockstep"});
+  const test::Outcome both = test::flinch(with(rig.run_arguments(), {"--lockstep", "--real-time"}));
   EXPECT_EQ(both.status, 2);
   EXPECT_THAT(both.err, HasSubstr("--real-time"));
-  const test::Outcome attended = test::flinch(with(bench.run_arguments(), {"--attended"}));
+  const test::Outcome attended = test::flinch(with(rig.run_arguments(), {"--attended"}));
   EXPECT_EQ(attended.status, 2);
   EXPECT_THAT(attended.err, HasSubstr("--attended: a robot in lockstep goes faster or slower"));
-  const test::Outcome simulated = test::flinch({"run", bench.scenario_file, "--lockstep"});
+  const test::Outcome simulated = test::flinch({"run", rig.scenario_file, "--lockstep"});
   EXPECT_EQ(simulated.status, 2);
   EXPECT_THAT(simulated.err, HasSubstr("only with --station dds"));
-  const test::Outcome patient =
-      test::flinch({"serve", bench.scenario_file, "--real-time", "--patience", "3"});
+  const test::Outcome patient = test::flinch({"serve", rig.scenario_file, "--real-time", "--patience", "3"});
   EXPECT_EQ(patient.status, 2);
   EXPECT_THAT(patient.err, HasSubstr("--patience: "));
 }

@@ -1,4 +1,4 @@
-// A scenario against the bench that another program serves: what it shows, and what stops it.
+// A scenario against the rig that another program serves: what it shows, and what stops it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@
 #include "systems/framework/recording.h"
 #include "systems/signals/gate_fault.h"
 #include "systems/signals/reaction_state.h"
-#include "tests/apps/flinch/bus/bench_on_the_bus.h"
+#include "tests/apps/flinch/bus/rig_on_the_bus.h"
 #include "tests/apps/flinch/documented_keys.h"
 
 namespace flinch {
 namespace {
 
 using nlohmann::json;
-using test::BenchOnTheBus;
+using test::RigOnTheBus;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
@@ -31,12 +31,12 @@ std::vector<double> modes_of(const Recording& recording) {
 }
 
 TEST(RunOnBus, ShowsWhatTheSimulationShows) {
-  const BenchOnTheBus bench;
+  const RigOnTheBus rig;
   const test::Outcome simulated =
-      test::flinch({"run", bench.scenario_file, "--out", bench.place.at("simulated"), "--json"});
-  std::vector<std::string> arguments = bench.run_arguments();
+      test::flinch({"run", rig.scenario_file, "--out", rig.place.at("simulated"), "--json"});
+  std::vector<std::string> arguments = rig.run_arguments();
   arguments.push_back("--json");
-  const test::Outcome live = bench.run(arguments);
+  const test::Outcome live = rig.run(arguments);
   ASSERT_EQ(simulated.status, 0) << simulated.err;
   ASSERT_EQ(live.status, 0) << live.out << live.err;
 
@@ -50,30 +50,30 @@ TEST(RunOnBus, ShowsWhatTheSimulationShows) {
   EXPECT_NEAR(on_bus, in_process, 2.0);
   EXPECT_NEAR(found["contacts"][0]["peak_force_N"], expected["contacts"][0]["peak_force_N"].get<double>(),
               10.0);
-  EXPECT_EQ(modes_of(read_recording(bench.place / "live/run.h5")),
-            modes_of(read_recording(bench.place / "simulated/run.h5")));
+  EXPECT_EQ(modes_of(read_recording(rig.place / "live/run.h5")),
+            modes_of(read_recording(rig.place / "simulated/run.h5")));
 }
 
 TEST(RunOnBus, IsReplayedBitForBitFromItsRecording) {
-  const BenchOnTheBus bench;
-  ASSERT_EQ(bench.run(bench.run_arguments()).status, 0);
+  const RigOnTheBus rig;
+  ASSERT_EQ(rig.run(rig.run_arguments()).status, 0);
   const test::Outcome replayed = test::flinch(
-      {"run", bench.place.at("live/run.h5"), "--station", "recorded", "--out", bench.place.at("replayed")});
+      {"run", rig.place.at("live/run.h5"), "--station", "recorded", "--out", rig.place.at("replayed")});
   EXPECT_EQ(replayed.status, 0) << replayed.err;
   EXPECT_THAT(replayed.err, HasSubstr("every signal is the same as before, bit for bit"));
 }
 
 TEST(RunOnBus, FindsTheRobotAgainWhereTheLastRunLeftIt) {
-  const BenchOnTheBus bench;
+  const RigOnTheBus rig;
   for (int run = 0; run < 2; ++run) {
-    const test::Outcome live = bench.run(bench.run_arguments());
+    const test::Outcome live = rig.run(rig.run_arguments());
     EXPECT_EQ(live.status, 0) << live.out << live.err;
   }
 }
 
 TEST(RunOnBus, SaysWhichChecksAreOffOnceTheGateOpens) {
-  const BenchOnTheBus bench("hexapod_collision");
-  const test::Outcome live = bench.run(bench.run_arguments());
+  const RigOnTheBus rig("hexapod_collision");
+  const test::Outcome live = rig.run(rig.run_arguments());
   EXPECT_THAT(live.out, HasSubstr("checks off         passive against active encoders (fault 13)"));
   const std::size_t told = live.err.find("check off: passive against active encoders (fault 13)");
   ASSERT_NE(told, std::string::npos) << live.err;
@@ -81,14 +81,14 @@ TEST(RunOnBus, SaysWhichChecksAreOffOnceTheGateOpens) {
 }
 
 TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
-  const BenchOnTheBus bench("square");
-  test::OtherProgram run(test::flinch_program(bench.run_arguments()));
+  const RigOnTheBus rig("square");
+  test::OtherProgram run(test::flinch_program(rig.run_arguments()));
   ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
   std::this_thread::sleep_for(2s);  // in the middle of the square
   run.interrupt();
   EXPECT_EQ(run.wait(20s), stopped_by_fault) << run.output();
 
-  const Recording recording = read_recording(bench.place / "live/run.h5");
+  const Recording recording = read_recording(rig.place / "live/run.h5");
   const std::vector<double> fault = recording.column("gate", "fault");
   const bool stopped_by_hand = fault.back() == static_cast<double>(GateFault::operator_stop);
   if (!stopped_by_hand && test::machine_stall() >= test::noticeable_stall) {
@@ -113,38 +113,38 @@ TEST(RunOnBus, ComesToRestInOrderOnCtrlC) {
 }
 
 TEST(RunOnBus, EndsWhereTheRobotIsGone) {
-  BenchOnTheBus bench("square");
-  std::vector<std::string> arguments = bench.run_arguments();
+  RigOnTheBus rig("square");
+  std::vector<std::string> arguments = rig.run_arguments();
   arguments.insert(arguments.end(), {"--patience", "1"});
   test::OtherProgram run(test::flinch_program(arguments));
   ASSERT_TRUE(run.writes("gate open", 20s)) << run.output();
-  bench.server->kill();
+  rig.server->kill();
   EXPECT_TRUE(run.writes("ended:     the robot has sent nothing for 1 s", 20s)) << run.output();
   EXPECT_EQ(run.wait(20s), stopped_by_fault) << run.output();
-  const Recording recording = read_recording(bench.place / "live/run.h5");
+  const Recording recording = read_recording(rig.place / "live/run.h5");
   EXPECT_EQ(recording.attributes.at("run.ended"), "the robot has sent nothing for 1 s");
   EXPECT_LT(to_seconds(Time(recording.time_ns.back())), 3.4) << "the scenario takes 3.5 s";
 }
 
 TEST(RunOnBus, ServesUntilCtrlC) {
-  BenchOnTheBus bench;
-  ASSERT_EQ(bench.run(bench.run_arguments()).status, 0);
-  bench.server->interrupt();
-  EXPECT_EQ(bench.server->wait(20s), 0);
-  const json served = json::parse(bench.server->output());
+  RigOnTheBus rig;
+  ASSERT_EQ(rig.run(rig.run_arguments()).status, 0);
+  rig.server->interrupt();
+  EXPECT_EQ(rig.server->wait(20s), 0);
+  const json served = json::parse(rig.server->output());
   EXPECT_THAT(test::undocumented_keys(served, "JSON"), IsEmpty());
   EXPECT_GT(served["commands"], 1000);
 }
 
 TEST(RunOnBus, RefusesARobotThatItDoesNotKnow) {
-  const BenchOnTheBus bench;
+  const RigOnTheBus rig;
   test::flinch(
-      bench.on_bus({"link", bench.scenario_file, "--duration", "0.1", "--quiet"}));  // it has read its file
-  bench.place.replace("robots/planar_3rrr.yaml", "platform:", "platform:  # another text");
-  const test::Outcome live = test::flinch(bench.run_arguments());
+      rig.on_bus({"link", rig.scenario_file, "--duration", "0.1", "--quiet"}));  // it has read its file
+  rig.place.replace("robots/planar_3rrr.yaml", "platform:", "platform:  # another text");
+  const test::Outcome live = test::flinch(rig.run_arguments());
   EXPECT_EQ(live.status, 2);
   EXPECT_THAT(live.err, HasSubstr("another robot description"));
-  EXPECT_FALSE(std::filesystem::exists(bench.place / "live"));
+  EXPECT_FALSE(std::filesystem::exists(rig.place / "live"));
 }
 
 TEST(RunOnBus, SaysWhereItLookedForARobotThatIsNotThere) {
@@ -232,10 +232,10 @@ TEST(RunOnBus, RefusesAReplayThatWouldReplaceItsRecording) {
 }
 
 TEST(RunOnBus, TakesOneCommanderOnly) {
-  const BenchOnTheBus bench("square");
-  test::OtherProgram first(test::flinch_program(bench.run_arguments("first")));
+  const RigOnTheBus rig("square");
+  test::OtherProgram first(test::flinch_program(rig.run_arguments("first")));
   ASSERT_TRUE(first.writes("gate open", 20s)) << first.output();
-  std::vector<std::string> arguments = bench.run_arguments("second");
+  std::vector<std::string> arguments = rig.run_arguments("second");
   arguments.insert(arguments.end(), {"--patience", "1"});
   const test::Outcome second = test::flinch(arguments);
   EXPECT_EQ(second.status, 2) << second.out << first.output();
@@ -248,9 +248,9 @@ TEST(RunOnBus, TakesOneCommanderOnly) {
 }
 
 TEST(Link, IsMeasuredWithoutMovingAnything) {
-  const BenchOnTheBus bench;
+  const RigOnTheBus rig;
   const test::Outcome link = test::flinch(
-      bench.on_bus({"link", bench.place.at("robots/planar_3rrr.yaml"), "--duration", "1", "--json"}));
+      rig.on_bus({"link", rig.place.at("robots/planar_3rrr.yaml"), "--duration", "1", "--json"}));
   const json report = json::parse(link.out);
   std::cout << report.dump() << std::endl;
   EXPECT_THAT(test::undocumented_keys(report, "JSON"), IsEmpty());

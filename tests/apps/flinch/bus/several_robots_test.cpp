@@ -8,7 +8,7 @@
 #include "tests/apps/flinch/program.h"
 #include "tests/support/flinch_program.h"
 #include "tests/support/free_domain.h"
-#include "tests/support/machine_watch.h"
+#include "tests/support/machine_monitor.h"
 #include "tests/support/other_program.h"
 #include "tests/support/workplace.h"
 
