@@ -45,6 +45,8 @@ void read_expectations(ConfigReader expect, const ParallelRobot& robot, Expectat
     expected.contact = body;
   }
   expect.number("detection_time", unit::s, expected.detection_time, positive);
+  expect.number("removal_time", unit::s, expected.removal_time, positive);
+  expect.number("lasting_force", unit::N, expected.lasting_force, positive);
   expect.number("observer_error_force", unit::N, expected.observer_error, positive);
   expect.number("observer_error_moment", unit::Nm, expected.observer_error_moment, positive);
   expect.number("tracking_error", unit::m, expected.tracking_error, positive);

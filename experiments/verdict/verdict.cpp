@@ -41,6 +41,33 @@ std::string name_of(const ContactVerdict& contact, const Verdict& verdict) {
   return is_only_one || obstacle.empty() ? contact.body : contact.body + " (" + obstacle + ")";
 }
 
+/// Whether it ended, and how hard it was until then. A clamping that outlasts the transient duration is bad
+/// unless the scenario says how hard it may be.
+void judge_end(const ContactVerdict& contact, const std::string& touched, const Expectations& expected,
+               std::vector<std::string>& failures) {
+  if (expected.removal_time && !contact.removed) {
+    failures.push_back(
+        fmt::format("the contact with {} was not over at the end, and should be after {:.1f} ms", touched,
+                    1e3 * *expected.removal_time));
+  } else if (expected.removal_time && *contact.removed - contact.onset > *expected.removal_time) {
+    failures.push_back(fmt::format("the contact with {} was over after {:.1f} ms, later than {:.1f} ms",
+                                   touched, 1e3 * (*contact.removed - contact.onset),
+                                   1e3 * *expected.removal_time));
+  }
+  if (!contact.lasting_force) return;
+  if (expected.lasting_force && *contact.lasting_force > *expected.lasting_force) {
+    failures.push_back(fmt::format("the force on {} lasted at {:.0f} N, above {:.0f} N", touched,
+                                   *contact.lasting_force, *expected.lasting_force));
+  }
+  if (!expected.lasting_force && !expected.removal_time && !contact.removed &&
+      contact.body.ends_with("_clamping")) {
+    failures.push_back(
+        fmt::format("the clamping {} was not released; where that is right, 'expect.lasting_force_N' says "
+                    "how hard it may be",
+                    touched));
+  }
+}
+
 void judge_contacts(const Verdict& verdict, const Expectations& expected,
                     std::vector<std::string>& failures) {
   for (const ContactVerdict& contact : verdict.contacts) {
@@ -54,6 +81,7 @@ void judge_contacts(const Verdict& verdict, const Expectations& expected,
                                      touched, 1e3 * (*contact.detected - contact.onset),
                                      1e3 * *expected.detection_time));
     }
+    if (!is_load) judge_end(contact, touched, expected, failures);
     if (!contact.within_limit) {
       const bool lasts = contact.limit_name == "quasi-static";
       failures.push_back(fmt::format(

@@ -30,15 +30,17 @@ struct ForceLimits {
 /// What a run is expected to show; what is not given is not judged.
 struct Expectations {
   /// The body that is touched, or "none": then pushes are loads that the robot shall bear without a reaction.
-  std::optional<std::string> contact;
-  std::optional<double> detection_time;         ///< longest time from contact to detection [s]
-  std::optional<double> observer_error;         ///< largest force error of the estimate without contact [N]
-  std::optional<double> observer_error_moment;  ///< the same for the moment [Nm]
-  std::optional<double> tracking_error;         ///< largest distance from the reference without contact [m]
-  double loop_closure = 1e-9;                   ///< [m]
+  std::optional<std::string> contact{};
+  std::optional<double> detection_time{};         ///< longest time from contact to detection [s]
+  std::optional<double> removal_time{};           ///< longest time from contact to its end [s]
+  std::optional<double> lasting_force{};          ///< largest force after the transient duration [N]
+  std::optional<double> observer_error{};         ///< largest force error of the estimate without contact [N]
+  std::optional<double> observer_error_moment{};  ///< the same for the moment [Nm]
+  std::optional<double> tracking_error{};         ///< largest distance from the reference without contact [m]
+  double loop_closure = 1e-9;                     ///< [m]
   /// Longest time from an operator's reset until `start` sets the robot off again [s]. That the gate closed
   /// before is then no failure.
-  std::optional<double> return_time;
+  std::optional<double> return_time{};
 };
 
 /// When a detector that follows an estimator detected a contact.

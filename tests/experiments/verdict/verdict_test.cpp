@@ -32,20 +32,6 @@ Expectations contact_with(const std::string& body) {
   return expected;
 }
 
-Expectations detection_within(double seconds) {
-  Expectations expected;
-  expected.detection_time = seconds;
-  return expected;
-}
-
-Expectations errors_within(double newtons, double newton_metres, double metres) {
-  Expectations expected;
-  expected.observer_error = newtons;
-  expected.observer_error_moment = newton_metres;
-  expected.tracking_error = metres;
-  return expected;
-}
-
 /// The only contact of a run.
 ContactVerdict contact_of(const SyntheticRun& run, const ForceLimits& limits = {}) {
   const Verdict verdict = judged(run, {}, limits);
@@ -348,47 +334,6 @@ TEST(Gate, ThatNeverOpensMakesTheVerdictBad) {
   EXPECT_THAT(judged(run).failures, ElementsAre("the torque gate never opened: the platform is too far out"));
   run.at(50).gate.phase = GatePhase::open;
   EXPECT_TRUE(judged(run).good());
-}
-
-// ---------------------------------------------------------------- expectations
-
-TEST(Expectation, OfNothingIsMetByAQuietRun) {
-  const Verdict verdict = judged(SyntheticRun(500));
-  EXPECT_TRUE(verdict.good());
-  EXPECT_NEAR(verdict.simulated, 0.5, 1e-12);
-  EXPECT_EQ(verdict.fault, "");
-}
-
-TEST(Expectation, OfAContactNamesTheFirstBody) {
-  SyntheticRun run(500);
-  run.touch(BodyId::link1(0), 100, 150, 20.0).notice(110, 180);
-  EXPECT_TRUE(judged(run, contact_with("leg1_link1")).good());
-  EXPECT_THAT(judged(run, contact_with("platform")).failures,
-              ElementsAre("leg1_link1 was touched instead of platform"));
-  EXPECT_THAT(judged(run, contact_with("none")).failures,
-              ElementsAre("there was a contact, though none was expected"));
-  EXPECT_TRUE(judged(SyntheticRun(100), contact_with("none")).good());
-  EXPECT_THAT(judged(SyntheticRun(100), contact_with("platform")).failures,
-              ElementsAre("nothing was touched, though a contact with platform was expected"));
-}
-
-TEST(Expectation, OfADetectionTimeCountsFromTheOnset) {
-  SyntheticRun run(500);
-  run.touch(platform, 100, 150, 10.0).notice(110, 180);  // onset 0.1 ms after the tick at 99 ms
-  EXPECT_TRUE(judged(run, detection_within(0.0110)).good());
-  EXPECT_THAT(judged(run, detection_within(0.010)).failures,
-              ElementsAre("the contact with platform was detected after 10.9 ms, later than 10.0 ms"));
-}
-
-TEST(Expectation, OfErrorsIsABoundInItsUnit) {
-  SyntheticRun run(100);
-  run.at(10).estimate.wrench_in_base = Eigen::Vector3d(6.0, 0.0, 0.4);
-  run.at(10).truth.pose[0] = 0.012;
-  EXPECT_TRUE(judged(run, errors_within(6.1, 0.41, 0.0121)).good());
-  EXPECT_THAT(judged(run, errors_within(5.0, 0.3, 0.01)).failures,
-              ElementsAre("the observer error reached 6 N, above 5 N",
-                          "the observer error reached 0.4 Nm, above 0.3 Nm",
-                          "the tracking error reached 12 mm, above 10 mm"));
 }
 
 TEST(Verdict, NeedsEverySignalButThoseThatNotEveryRunHas) {

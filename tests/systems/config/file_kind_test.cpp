@@ -45,7 +45,6 @@ TEST(FileKinds, OfAllFilesThatAreHereAreThoseOfTheirFolders) {
   for (const auto& [folder, kind] : {std::pair("robots", FileKind::robot),
                                      {"scenarios", FileKind::scenario},
                                      {"calibrations", FileKind::parameters},
-                                     {"papers", FileKind::figures},
                                      {"campaigns", FileKind::campaign},
                                      {"models", FileKind::data_spec}}) {
     int files = 0;
