@@ -178,8 +178,8 @@ std::string calibration_page(const CalibrationResult& result, const std::string&
       "<p>What is left unexplained: <b>{:.4g}{}</b> with what was believed, <b>{:.4g}{}</b> with what "
       "was found (root mean square).</p></header>",
       result.residual_before, unit, result.residual_after, unit);
-  for (const std::string& doubt : result.contradictions)
-    html += "<p class='warning'>" + escaped(doubt) + "</p>";
+  for (const std::string& contradiction : result.contradictions)
+    html += "<p class='warning'>" + escaped(contradiction) + "</p>";
   for (const std::string& warning : result.warnings)
     html += "<p class='warning'>" + escaped(warning) + "</p>";
   for (const std::string& note : result.notes) html += "<p>" + escaped(note) + "</p>";

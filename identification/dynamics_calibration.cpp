@@ -375,8 +375,8 @@ std::vector<std::string> files_of(const std::vector<MotionRecording>& recordings
 void doubt_left_torque(const DynamicsRows& rows, const Eigen::VectorXd& left,
                        const std::vector<MotionRecording>& recordings, CalibrationResult& result) {
   const std::vector<std::string> files = files_of(recordings);
-  for (const std::string& doubt : warnings_about_contacts(rows, left, files, result.residual_unit))
-    result.contradictions.push_back(doubt);
+  for (const std::string& warning : warnings_about_contacts(rows, left, files, result.residual_unit))
+    result.contradictions.push_back(warning);
   for (const std::string& warning : warnings_about_drift(rows, left, files, result.residual_unit))
     result.warnings.push_back(warning);
 }

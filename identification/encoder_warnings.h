@@ -18,8 +18,8 @@ template <class Recordings>
 void add_encoder_warnings(const Recordings& recordings, const ParallelRobot& robot,
                           std::vector<std::string>& warnings) {
   for (const auto& from : recordings) {
-    for (const std::string& doubt : warnings_about_encoders(*from.recording, robot))
-      warnings.push_back(from.source.file + ": " + doubt);
+    for (const std::string& warning : warnings_about_encoders(*from.recording, robot))
+      warnings.push_back(from.source.file + ": " + warning);
   }
 }
 

@@ -74,7 +74,7 @@ ImportSummary summary_of(const MappedLog& log) {
                                  std::to_string(std::lround(100.0 * signal.valid_fraction)) +
                                  " % of the samples only");
   }
-  for (const std::string& doubt : warnings_about_poses(log)) summary.warnings.push_back(doubt);
+  for (const std::string& warning : warnings_about_poses(log)) summary.warnings.push_back(warning);
   return summary;
 }
 

@@ -21,7 +21,7 @@ constexpr std::size_t first_columns = 7;
 
 std::size_t columns_of(const ParallelRobot& robot) {
   return first_columns + static_cast<std::size_t>(robot.home_pose().size()) +
-         2 * history_ages.size() * static_cast<std::size_t>(robot.dof());
+         2 * window_ages.size() * static_cast<std::size_t>(robot.dof());
 }
 
 std::string column_names(const ParallelRobot& robot) {
@@ -30,7 +30,7 @@ std::string column_names(const ParallelRobot& robot) {
     for (Eigen::Index i = 0; i < count; ++i) names += fmt::format(" {}_{}", name, i + 1);
   };
   add("pose", robot.home_pose().size());
-  for (const Time age : history_ages) {
+  for (const Time age : window_ages) {
     add(fmt::format("wrench_{}ms", age / 1ms), robot.dof());
     add(fmt::format("velocity_{}ms", age / 1ms), robot.dof());
   }

@@ -150,7 +150,7 @@ ExitStatus calibrate_thresholds(const CalibrateThresholdsOptions& options) {
   found.estimators =
       calibrate_thresholds(peaks_of(motions, free, found.goal, quiet), found.goal, found.warnings);
   const std::vector<ResidualRecording> residuals = residuals_of(motions);
-  for (std::string& doubt : left_out_imus(motions)) found.warnings.push_back(std::move(doubt));
+  for (std::string& warning : left_out_imus(motions)) found.warnings.push_back(std::move(warning));
   calibrate_fused_detector(residuals, quiet, found);
   found.drive_deviations =
       drive_deviations(residuals, *motions.scenarios.front().robot.robot, IsolationSettings().uncertainty);

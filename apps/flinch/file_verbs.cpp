@@ -115,8 +115,9 @@ Checked check_file(const std::filesystem::path& file, const CommonOptions& commo
 
 std::vector<std::string> warnings_of(const std::filesystem::path& file, const Checked& checked) {
   std::vector<std::string> warnings;
-  for (const std::string& doubt : checked.robot_warnings) warnings.push_back(file.string() + ": " + doubt);
-  for (const CalibrationWarning& doubt : checked.warnings) warnings.push_back(doubt.sentence);
+  for (const std::string& warning : checked.robot_warnings)
+    warnings.push_back(file.string() + ": " + warning);
+  for (const CalibrationWarning& warning : checked.warnings) warnings.push_back(warning.sentence);
   return warnings;
 }
 

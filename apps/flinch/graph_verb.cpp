@@ -1,8 +1,6 @@
 // flinch graph: the diagram of a scenario as a page, a picture or text.
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "apps/flinch/command_line.h"
@@ -11,6 +9,7 @@
 #include "apps/flinch/shell_word.h"
 #include "apps/flinch/simulated/simulated_parts.h"
 #include "experiments/graph/graph_page.h"
+#include "systems/foundation/bytes_of_file.h"
 #include "systems/foundation/json_text.h"
 #include "systems/foundation/result_file.h"
 #include "systems/foundation/setup_error.h"
@@ -50,8 +49,7 @@ void draw_svg(const std::string& dot, const std::filesystem::path& file) {
 std::string picture_of(const std::string& dot, const std::filesystem::path& file) {
   const ResultFile picture(file.string() + ".svg");  // never finished
   draw(dot, file, picture);
-  std::ifstream drawn(picture.unfinished_name(), std::ios::binary);
-  const std::string text(std::istreambuf_iterator<char>(drawn), {});
+  const std::string text = bytes_of_file(picture.unfinished_name());
   return text.substr(std::min(text.find("<svg"), text.size()));
 }
 

@@ -6,19 +6,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
+#include "systems/foundation/bytes_of_file.h"
 #include "systems/foundation/setup_error.h"
 
 namespace flinch {
 namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// The last line that says something.
 std::string last_line(const std::string& text) {
@@ -62,9 +56,9 @@ std::string run_own_command(const std::vector<std::string>& words, const std::fi
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     std::string command = "flinch";
     for (const std::string& word : words) command += " " + word;
-    throw SetupError("'" + command + "' failed: " + last_line(text_of(folder / "command.log")));
+    throw SetupError("'" + command + "' failed: " + last_line(bytes_of_file(folder / "command.log")));
   }
-  std::string printed = text_of(folder / "command.out");
+  std::string printed = bytes_of_file(folder / "command.out");
   std::filesystem::remove(folder / "command.out");
   std::filesystem::remove(folder / "command.log");
   return printed;

@@ -287,7 +287,7 @@ void append_new(const auto& more, auto& all) {
 }
 
 /// Whether the campaign varies calibrations, and leaves the threshold that they replace to the scenario.
-bool is_meant(const Campaign& campaign, const CalibrationWarning& doubt) {
+bool is_meant(const Campaign& campaign, const CalibrationWarning& warning) {
   const auto varies = [&campaign](const std::string& key) {
     const auto begins = [&key](const auto& of) {
       return of.key.starts_with(key) || key.starts_with(of.key + ".");
@@ -295,7 +295,7 @@ bool is_meant(const Campaign& campaign, const CalibrationWarning& doubt) {
     return std::any_of(campaign.grid.begin(), campaign.grid.end(), begins) ||
            std::any_of(campaign.drawn.begin(), campaign.drawn.end(), begins);
   };
-  return !doubt.key.empty() && varies("calibrations") && !varies(doubt.key);
+  return !warning.key.empty() && varies("calibrations") && !varies(warning.key);
 }
 
 }  // namespace
@@ -339,7 +339,7 @@ std::vector<CalibrationWarning> check_keys(const Campaign& campaign) {
     draw_values(campaign, random, draft, unused);
     if (campaign.contact && campaign.contact->by == CampaignContact::By::pushing) make_hand(draft);
     auto told = parse_simulated_scenario(draft.root(), draft.file(), *campaign.robots).warnings;
-    std::erase_if(told, [&](const CalibrationWarning& doubt) { return is_meant(campaign, doubt); });
+    std::erase_if(told, [&](const CalibrationWarning& warning) { return is_meant(campaign, warning); });
     append_new(told, warnings);
   };
   for (const std::vector<std::size_t>& points : points_by_axis(campaign)) {

@@ -48,9 +48,9 @@ std::optional<double> quantile(std::vector<double> values, std::size_t count, do
 
 namespace {
 
-/// Order statistics around a quantile of `count` values, of which those that are not known are the largest.
-std::array<std::optional<double>, 2> within(std::vector<double> values, std::size_t count, double share) {
-  std::sort(values.begin(), values.end());
+/// Order statistics around a quantile of `count` values: `values`, sorted, and larger ones that nobody knows.
+std::array<std::optional<double>, 2> within(const std::vector<double>& values, std::size_t count,
+                                            double share) {
   const RankBounds ranks = ranks_around_quantile(count, share);
   const auto value_at = [&](std::optional<std::size_t> rank) {
     return rank && *rank <= values.size() ? std::optional(values[*rank - 1]) : std::nullopt;
@@ -85,10 +85,12 @@ CampaignGroup CollectedGroup::group() const {
   static constexpr std::array shares = {0.1, 0.25, 0.5, 0.75, 0.9};
   for (std::size_t i = 0; i < shares.size(); ++i)
     group.quantiles[i] = quantile(times_, group.contacts, shares[i]);
+  std::vector<double> sorted = times_;
+  std::sort(sorted.begin(), sorted.end());
   group.median = group.quantiles[2];
-  group.median_within = within(times_, group.contacts, 0.5);
+  group.median_within = within(sorted, group.contacts, 0.5);
   group.p90 = group.quantiles[4];
-  group.p90_within = within(times_, group.contacts, 0.9);
+  group.p90_within = within(sorted, group.contacts, 0.9);
   const double hours = group.contact_free / 3600.0;
   group.false_alarms_per_hour = hours > 0.0 ? static_cast<double>(group.false_alarms) / hours : 0.0;
   group.false_alarms_per_hour_at_most = garwood_upper(group.false_alarms, hours);

@@ -177,14 +177,14 @@ std::optional<ContactMoments> course_at(std::size_t tick, Time period,
                                         const RecordedValues<RecordedEstimate>& estimates,
                                         const RecordedValues<PlatformMotion>& motions) {
   ContactMoments course;
-  for (std::size_t i = 0; i < history_ages.size(); ++i) {
-    const auto age = static_cast<std::size_t>((history_ages[i] + period - Time{1}) / period);
+  for (std::size_t i = 0; i < window_ages.size(); ++i) {
+    const auto age = static_cast<std::size_t>((window_ages[i] + period - Time{1}) / period);
     if (age > tick) return std::nullopt;
     const RecordedEstimate estimate = estimates[tick - age];
     const PlatformMotion motion = motions[tick - age];
     if (!estimate.valid || !motion.valid()) return std::nullopt;
     course[i] = {estimate.wrench_in_base, motion.velocity};
-    const Time later = static_cast<Time::rep>(age) * period - history_ages[i];
+    const Time later = static_cast<Time::rep>(age) * period - window_ages[i];
     if (period <= 1ms || later == Time::zero()) continue;  // as ContactWindowBuffer: between two long ticks
     const RecordedEstimate next = estimates[tick - age + 1];
     const PlatformMotion moved = motions[tick - age + 1];

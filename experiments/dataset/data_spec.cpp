@@ -23,8 +23,8 @@ DataPart read_part(ConfigReader& reader, std::vector<CalibrationWarning>& warnin
   if (campaign.empty()) return part;
   try {
     part.campaign = read_campaign(campaign);
-    for (const CalibrationWarning& doubt : check_keys(part.campaign)) {
-      if (std::find(warnings.begin(), warnings.end(), doubt) == warnings.end()) warnings.push_back(doubt);
+    for (const CalibrationWarning& warning : check_keys(part.campaign)) {
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
     }
   } catch (const SetupError& error) {
     reader.add_problems(error.problems());

@@ -14,6 +14,7 @@
 #include "experiments/report/script_data.h"
 #include "systems/foundation/json_text.h"
 #include "systems/framework/diagram_levels.h"
+#include "systems/framework/dot_text.h"
 
 namespace flinch {
 namespace {
@@ -66,9 +67,7 @@ class GraphDescription {
 
  private:
   void follow_wires(const Diagram& diagram) {
-    for (const Diagram::Wire& wire : diagram.wires()) connect(wire.from, wire.to);
-    for (std::size_t i = 0; i < diagram.outputs().size(); ++i)
-      connect(diagram.outputs()[i].reads.front(), {&diagram, PortId::Kind::output, static_cast<int>(i)});
+    for (const Diagram::Wire& wire : wires_to_outputs(diagram)) connect(wire.from, wire.to);
     for (const auto& child : diagram.children()) {
       if (const auto* nested = dynamic_cast<const Diagram*>(child.get())) follow_wires(*nested);
     }

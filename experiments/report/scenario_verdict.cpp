@@ -16,7 +16,7 @@ Verdict verdict_of(const Scenario& scenario, const Recording& recording,
     const std::string sentence = scenario.near_miss(scenario, recording);
     if (!sentence.empty()) verdict.failures.push_back(sentence);
   }
-  for (const CalibrationWarning& doubt : scenario.warnings) verdict.remarks.push_back(doubt.sentence);
+  for (const CalibrationWarning& warning : scenario.warnings) verdict.remarks.push_back(warning.sentence);
   return verdict;
 }
 

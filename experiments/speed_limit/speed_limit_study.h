@@ -66,7 +66,7 @@ struct SpeedLimitStudy {
   std::string obstacle;  ///< Which is met, as a section of the scenario: "pylon", "obstacles[0]".
 };
 
-/// Reads scenario and robot. The robots are those of `plant: {realism: rig}` where the scenario does not
+/// Reads scenario and robot. The robots are those of `plant: {realism: bench}` where the scenario does not
 /// say what they are. Throws SetupError with all that is wrong with the settings or the scenario.
 SpeedLimitStudy read_speed_limit_study(const SpeedLimitSettings& settings);
 

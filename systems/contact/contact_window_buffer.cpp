@@ -25,8 +25,8 @@ void ContactWindowBuffer::recall(const WrenchEstimate& estimate, const PlatformM
   result.moments.front() = {estimate.wrench_in_base, motion.velocity};
   const Remembered now{estimate.acquired, result.moments.front()};
   const Time tolerance = std::max<Time>(1ms, period_) + std::max(jitter, period_ / 2);  // one tick is missing
-  for (std::size_t i = 1; i < history_ages.size(); ++i) {
-    const Time wanted = estimate.acquired - history_ages[i];
+  for (std::size_t i = 1; i < window_ages.size(); ++i) {
+    const Time wanted = estimate.acquired - window_ages[i];
     const Remembered* const then = past.last_before(wanted + jitter);
     if (then == nullptr || wanted - then->acquired > tolerance) return;
     const bool is_between = period_ > 1ms && then->acquired < wanted;

@@ -128,7 +128,7 @@ std::vector<FeatureName> evidence_feature_names() {
     for (const char* what : {"best_of_others", "least_residual"}) add(when + what);
   }
   add("log_total_force");
-  for (const Time age : history_ages) {
+  for (const Time age : window_ages) {
     const std::string when = "_" + std::to_string(age / 1ms) + "ms_ago";
     for (const char* what : {"link1_force", "link2_force", "other_force", "link1_speed", "link2_speed"})
       add(what + when);

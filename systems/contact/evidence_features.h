@@ -25,7 +25,7 @@ struct SeenContact {
 void evidence_features(const ContactClasses& classes, const SeenContact& seen,
                        NeuralNetwork::Values& columns) noexcept;
 
-inline constexpr int evidence_feature_count = 60 + 5 * static_cast<int>(history_ages.size());
+inline constexpr int evidence_feature_count = 60 + 5 * static_cast<int>(window_ages.size());
 
 /// What the rows of `evidence_features` are.
 std::vector<FeatureName> evidence_feature_names();

@@ -19,7 +19,7 @@ struct LegMoment {
 /// A course in coordinates of a leg, in which it looks alike whichever leg it is and wherever it stands.
 struct LegHistory {
   double elbow_cosine = 0.0;  ///< of the angle between the links
-  std::array<LegMoment, history_ages.size()> moments{};
+  std::array<LegMoment, window_ages.size()> moments{};
 };
 using LegCourses = std::array<LegHistory, max_dof>;
 

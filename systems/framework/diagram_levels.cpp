@@ -1,7 +1,8 @@
 #include "systems/framework/diagram_levels.h"
 
-#include <algorithm>
 #include <sstream>
+
+#include "systems/framework/dot_text.h"
 
 namespace flinch {
 namespace {
@@ -13,17 +14,11 @@ class LevelDrawing {
 
   void draw(const Diagram& level, std::vector<DiagramLevel>& levels) const {
     std::ostringstream text;
-    text << "digraph \"" << level.name()
-         << "\" {\n  rankdir=LR;\n  node [shape=plain, fontname=\"Helvetica\", fontsize=11];\n"
-         << "  edge [color=\"#4a5a70\", arrowsize=0.7];\n";
+    text << dot_head(level.name());
     draw_own_ports(level.inputs(), {&level, PortId::Kind::input}, text);
     draw_own_ports(level.outputs(), {&level, PortId::Kind::output}, text);
     for (const auto& child : level.children()) draw_box(*child, text);
-    for (const Diagram::Wire& wire : level.wires()) draw_wire(level, wire, text);
-    for (std::size_t i = 0; i < level.outputs().size(); ++i) {
-      const PortId out{&level, PortId::Kind::output, static_cast<int>(i)};
-      draw_wire(level, {level.outputs()[i].reads.front(), out}, text);
-    }
+    for (const Diagram::Wire& wire : wires_to_outputs(level)) draw_wire(level, wire, text);
     text << "}\n";
     levels.push_back({paths_.of(level), text.str()});
     for (const auto& child : level.children()) {
@@ -36,44 +31,14 @@ class LevelDrawing {
   void draw_own_ports(const Ports& ports, PortId first, std::ostringstream& text) const {
     for (std::size_t i = 0; i < ports.size(); ++i) {
       const PortId port{first.owner, first.kind, static_cast<int>(i)};
-      text << "  " << anchor(*first.owner, port) << " [id=\"port:" << paths_.of(port)
-           << "\", shape=box, style=\"rounded,filled\", fillcolor=\"#e8eef7\", label=\"" << ports[i].name
-           << "\"];\n";
+      text << "  " << anchor(*first.owner, port) << " [id=\"port:" << paths_.of(port) << "\", "
+           << dot_port(ports[i].name) << "];\n";
     }
   }
 
   void draw_box(const System& block, std::ostringstream& text) const {
-    std::vector<std::size_t> shown;  // intermediate results are no ports
-    for (std::size_t i = 0; i < block.outputs().size(); ++i) {
-      if (!block.outputs()[i].intermediate) shown.push_back(i);
-    }
-    const bool opens = dynamic_cast<const Diagram*>(&block) != nullptr;
-    text << "  \"" << paths_.of(block) << "\" [id=\"block:" << paths_.of(block)
-         << "\", label=<<table border=\"" << (opens ? 2 : 1)
-         << "\" cellborder=\"0\" cellspacing=\"0\" cellpadding=\"3\" color=\"#4a5a70\">"
-         << "<tr><td colspan=\"2\" bgcolor=\"" << (opens ? "#dfe7f2" : "#f3f1ea") << "\"><b>" << block.name()
-         << "</b></td></tr>";
-    const std::size_t rows = std::max<std::size_t>({block.inputs().size(), shown.size(), 1});
-    for (std::size_t i = 0; i < rows; ++i) {
-      text << "<tr>";
-      draw_cell(block, PortId::Kind::input, i, block.inputs(), text);
-      draw_cell(block, PortId::Kind::output, i < shown.size() ? shown[i] : block.outputs().size(),
-                block.outputs(), text);
-      text << "</tr>";
-    }
-    text << "</table>>];\n";
-  }
-
-  template <class Ports>
-  void draw_cell(const System& block, PortId::Kind kind, std::size_t i, const Ports& ports,
-                 std::ostringstream& text) const {
-    if (i >= ports.size()) {
-      text << "<td></td>";
-      return;
-    }
-    const PortId port{&block, kind, static_cast<int>(i)};
-    text << "<td port=\"" << name_of_cell(port) << "\" align=\""
-         << (kind == PortId::Kind::input ? "left" : "right") << "\">" << ports[i].name << "</td>";
+    text << "  \"" << paths_.of(block) << "\" [id=\"block:" << paths_.of(block) << "\", label=<"
+         << dot_table(block) << ">];\n";
   }
 
   void draw_wire(const Diagram& level, const Diagram::Wire& wire, std::ostringstream& text) const {
@@ -82,14 +47,10 @@ class LevelDrawing {
          << paths_.of(wire.from) << ">" << paths_.of(wire.to) << "\"];\n";
   }
 
-  static std::string name_of_cell(PortId port) {
-    return (port.kind == PortId::Kind::input ? "i" : "o") + std::to_string(port.index);
-  }
-
   /// The ports of the level are nodes of their own, those of its blocks cells of theirs.
   std::string anchor(const System& level, PortId port) const {
-    if (port.owner == &level) return "own_" + name_of_cell(port);
-    return "\"" + paths_.of(*port.owner) + "\":" + name_of_cell(port);
+    if (port.owner == &level) return "own_" + dot_cell(port);
+    return "\"" + paths_.of(*port.owner) + "\":" + dot_cell(port);
   }
 
   PortPaths paths_;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 
+#include "systems/foundation/bytes_of_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/hdf5_chunks.h"
 
@@ -197,11 +197,6 @@ class Visitor {
 /// The byte of the superblock that says who has the file open. [HDF5 file format specification 3.0, II.A]
 constexpr std::size_t marks_at = 11;
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 bool is_marked(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string head(16, '\0');
@@ -228,7 +223,7 @@ Hdf5Object open_foreign_file(const std::filesystem::path& file, bool& was_left_o
   was_left_open = is_marked(file);
   if (!was_left_open) return open_hdf5_file(file);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  return open_image(bytes_of(file));
+  return open_image(bytes_of_file(file));
 }
 
 ForeignContents contents_of(Hdf5Object::Id file) { return Visitor(file).visit(); }

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "systems/framework/diagram.h"
+#include "systems/framework/dot_text.h"
 
 namespace flinch {
 namespace {
@@ -12,9 +13,7 @@ namespace {
 class Drawing {
  public:
   std::string draw(const Diagram& root) {
-    text_ << "digraph \"" << root.name()
-          << "\" {\n  rankdir=LR;\n  node [shape=plain, fontname=\"Helvetica\", fontsize=11];\n"
-          << "  edge [color=\"#4a5a70\", arrowsize=0.7];\n  compound=true;\n";
+    text_ << dot_head(root.name()) << "  compound=true;\n";
     draw_ports(root, "  ");
     draw_children(root, "  ");
     draw_wires(root);
@@ -39,8 +38,7 @@ class Drawing {
 
   void draw_port(const Diagram& diagram, const char* side, std::size_t i, const std::string& name,
                  const std::string& indent) {
-    text_ << indent << id(diagram) << "_" << side << i
-          << " [shape=box, style=\"rounded,filled\", fillcolor=\"#e8eef7\", label=\"" << name << "\"];\n";
+    text_ << indent << id(diagram) << "_" << side << i << " [" << dot_port(name) << "];\n";
   }
 
   void draw_children(const Diagram& diagram, const std::string& indent) {
@@ -53,41 +51,13 @@ class Drawing {
         draw_children(*nested, indent + "  ");
         text_ << indent << "}\n";
       } else {
-        draw_block(*child, indent);
+        text_ << indent << id(*child) << " [label=<" << dot_table(*child) << ">];\n";
       }
     }
   }
 
-  void draw_block(const System& block, const std::string& indent) {
-    std::vector<std::size_t> shown;  // intermediate results are no ports
-    for (std::size_t i = 0; i < block.outputs().size(); ++i) {
-      if (!block.outputs()[i].intermediate) shown.push_back(i);
-    }
-    const std::size_t rows = std::max<std::size_t>({block.inputs().size(), shown.size(), 1});
-    text_ << indent << id(block)
-          << " [label=<<table border=\"1\" cellborder=\"0\" cellspacing=\"0\" cellpadding=\"3\" "
-             "color=\"#4a5a70\">"
-          << "<tr><td colspan=\"2\" bgcolor=\"#f3f1ea\"><b>" << block.name() << "</b></td></tr>";
-    for (std::size_t i = 0; i < rows; ++i) {
-      const std::size_t output = i < shown.size() ? shown[i] : block.outputs().size();
-      text_ << "<tr>" << cell("i", i, block.inputs(), "left") << cell("o", output, block.outputs(), "right")
-            << "</tr>";
-    }
-    text_ << "</table>>];\n";
-  }
-
-  template <class Ports>
-  static std::string cell(const char* side, std::size_t i, const Ports& ports, const char* align) {
-    if (i >= ports.size()) return "<td></td>";
-    return std::string("<td port=\"") + side + std::to_string(i) + "\" align=\"" + align + "\">" +
-           ports[i].name + "</td>";
-  }
-
   void draw_wires(const Diagram& diagram) {
-    for (const Diagram::Wire& wire : diagram.wires()) draw_edge(wire.from, wire.to);
-    for (std::size_t i = 0; i < diagram.outputs().size(); ++i) {
-      draw_edge(diagram.outputs()[i].reads.front(), {&diagram, PortId::Kind::output, static_cast<int>(i)});
-    }
+    for (const Diagram::Wire& wire : wires_to_outputs(diagram)) draw_edge(wire.from, wire.to);
     for (const auto& child : diagram.children()) {
       if (const auto* nested = dynamic_cast<const Diagram*>(child.get())) draw_wires(*nested);
     }
@@ -98,10 +68,8 @@ class Drawing {
   }
 
   std::string anchor(PortId port, const char* compass) {
-    const std::string side = port.kind == PortId::Kind::input ? "i" : "o";
     const bool of_diagram = dynamic_cast<const Diagram*>(port.owner) != nullptr;
-    return id(*port.owner) + (of_diagram ? "_" : ":") + side + std::to_string(port.index) +
-           (of_diagram ? "" : compass);
+    return id(*port.owner) + (of_diagram ? "_" : ":") + dot_cell(port) + (of_diagram ? "" : compass);
   }
 
   std::unordered_map<const System*, std::string> ids_;

@@ -9,7 +9,7 @@ namespace flinch {
 
 /// How long before now each moment of a course lies: close together where an estimate still follows what has
 /// just happened, far apart before.
-inline constexpr std::array history_ages{0ms, 1ms, 2ms, 3ms, 5ms, 7ms, 10ms, 15ms, 20ms, 25ms, 35ms, 45ms};
+inline constexpr std::array window_ages{0ms, 1ms, 2ms, 3ms, 5ms, 7ms, 10ms, 15ms, 20ms, 25ms, 35ms, 45ms};
 
 /// What was estimated and how the platform moved at one moment.
 struct ContactMoment {
@@ -17,8 +17,8 @@ struct ContactMoment {
   PlatformVector velocity;  ///< of the platform [m/s, rad/s], in the base frame, as the encoders tell it
 };
 
-/// At each of `history_ages`.
-using ContactMoments = std::array<ContactMoment, history_ages.size()>;
+/// At each of `window_ages`.
+using ContactMoments = std::array<ContactMoment, window_ages.size()>;
 
 /// How a contact has come about: the estimated wrench and the motion of late, from before it on.
 struct ContactWindow {

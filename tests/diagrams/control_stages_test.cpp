@@ -179,7 +179,7 @@ TEST(ControlStages, AReactionLawOfOnesOwnHasTheTorque) {
   EXPECT_EQ(rig.control.others.torques[0].name, "torque_retraction");
 }
 
-/// Notices nothing.
+/// Detects nothing.
 class Numb final : public System {
  public:
   InputPort<WrenchEstimate> wrench = input<WrenchEstimate>("wrench");

@@ -118,8 +118,8 @@ DataSet contact_examples(int count, std::uint64_t seed) {
     } while (contact.speed < least_speed);
     Dynamics dynamics;
     robot.dynamics(now, dynamics);
-    for (std::size_t k = 0; k < history_ages.size(); ++k) {
-      const double ago = static_cast<double>(history_ages[k] / 1ms);
+    for (std::size_t k = 0; k < window_ages.size(); ++k) {
+      const double ago = static_cast<double>(window_ages[k] / 1ms);
       PlatformVector wrench = PlatformVector::Zero(robot.dof()), since_then = wrench;
       for (std::size_t place = 0; place < since.size(); ++place) {
         const double lasts = 5.0 * since[place], of = std::min(ago, lasts);  // [ms]

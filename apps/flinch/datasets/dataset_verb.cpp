@@ -39,7 +39,7 @@ std::vector<CalibrationWarning> check_data_spec(const std::filesystem::path& spe
 
 ExitStatus dataset(const DatasetOptions& options) {
   const DataSpec spec = read_data_spec(options.spec, {.runs = options.runs, .seed = options.seed});
-  for (const CalibrationWarning& doubt : spec.warnings) print_message("warning: {}\n", doubt.sentence);
+  for (const CalibrationWarning& warning : spec.warnings) print_message("warning: {}\n", warning.sentence);
   const std::filesystem::path file =
       options.out.empty() ? std::filesystem::path("out") / (options.spec.stem().string() + ".h5")
                           : options.out;

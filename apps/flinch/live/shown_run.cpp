@@ -2,23 +2,17 @@
 
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 
 #include "apps/flinch/printing.h"
 #include "experiments/live_view/live_view.h"
+#include "systems/foundation/bytes_of_file.h"
 
 namespace flinch {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 LiveViewSettings settings_of(const LiveOptions& options, ShownPace pace) {
   LiveViewSettings settings;
@@ -40,7 +34,7 @@ class RunInBrowser : public ShownRun {
 
   void finish(const std::filesystem::path& report) override {
     std::signal(SIGINT, [](int) { interrupted = 1; });
-    view_.finish(text_of(report));
+    view_.finish(bytes_of_file(report));
     std::signal(SIGINT, SIG_DFL);
   }
   void finish() override { view_.finish(); }

@@ -73,8 +73,8 @@ ExitStatus campaign(const CampaignOptions& options) {
     helpers->work(campaign);
     return ExitStatus::done;
   }
-  for (const CalibrationWarning& doubt : check_campaign(campaign))  // before anything is written
-    print_message("warning: {}\n", doubt.sentence);
+  for (const CalibrationWarning& warning : check_campaign(campaign))  // before anything is written
+    print_message("warning: {}\n", warning.sentence);
   std::optional<CountedAlarms> alarms;
   if (!options.false_alarms.empty()) alarms.emplace(campaign, options.false_alarms);
   const RunFolder folder = campaign_folder(options, campaign);

@@ -50,8 +50,8 @@ RunCall call_of_runs(const RunOptions& options) {
 ExitStatus run_sweep(const RunOptions& options) {
   Campaign sweep = read_sweep(options.input, options.set, options.seed);
   sweep.addition = addition_of(options.classifier, options.faults);
-  for (const CalibrationWarning& doubt : check_campaign(sweep))  // before anything is written
-    print_message("warning: {}\n", doubt.sentence);
+  for (const CalibrationWarning& warning : check_campaign(sweep))  // before anything is written
+    print_message("warning: {}\n", warning.sentence);
   const RunFolder folder = folder_of(options, sweep.name + "_sweep");
   const StopWatch watch;
   const CampaignResults results = in_memory(

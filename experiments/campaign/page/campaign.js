@@ -15,8 +15,7 @@ function showCampaign() {
 }
 
 function showProvenance() {
-  byId("provenance").replaceChildren(...campaign.provenance.map(([name, value]) =>
-    element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+  listProvenance(campaign.provenance);
   byId("texts").replaceChildren(...campaign.texts.map(({ title, text }) =>
     element("details", {}, element("summary", {}, title), element("pre", {}, text))));
 }

@@ -123,8 +123,7 @@ function showSweep() {
   byId("same").textContent = sweep.same.length === 0 ? "" : `The same at all values: ${
     sweep.same.map((figure) => `${figure.name} ${number(figure.value, 4)}${figure.unit ? ` ${figure.unit}` : ""}`).join(", ")}.`;
   byId("text").textContent = sweep.text;
-  byId("provenance").replaceChildren(...Object.entries(sweep.provenance).map(([name, value]) =>
-    element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+  listProvenance(Object.entries(sweep.provenance));
   showRows();
   choose(0);
 }

@@ -38,6 +38,5 @@ function showJudgement() {
   byId("truth").textContent = truthSentence();
   const events = report.events.length > 0 ? report.events : ["Nothing: no fault would have closed the torque gate."];
   byId("events").replaceChildren(...events.map((event) => element("li", {}, event)));
-  byId("provenance").replaceChildren(...[["Version", report.version], ["Call", report.call]].map(([name, value]) =>
-    element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+  listProvenance([["Version", report.version], ["Call", report.call]]);
 }

@@ -43,6 +43,5 @@ function showComparison() {
     byId("settings").replaceChildren(...sideBySide(report.settings.map(({ key, unit, values }) => [unit ? `${key} [${unit}]` : key, values])));
   }
   byId("alignment").textContent = report.runs.length === 1 ? "" : alignment();
-  byId("provenance").replaceChildren(...[["Version", report.version], ["Call", report.call]].map(([name, value]) =>
-    element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+  listProvenance([["Version", report.version], ["Call", report.call]]);
 }

@@ -168,19 +168,14 @@ function start() {
   register(data.root, null);
   byId("tree").append(treeEntry(data.root));
   const count = [...blocks.values()].filter((block) => !block.children).length;
-  byId("told").textContent = `${count} blocks in ${blocks.size - count} diagrams, a tick every ${inMilliseconds(data.tick_us)} ms`;
+  byId("told").textContent = `${count} blocks in ${blocks.size - count} diagrams, a tick every ${chosen(data.tick_us / 1000)} ms`;
   byId("search").addEventListener("input", () => search(byId("search").value));
   byId("zoom").addEventListener("click", () => zoom(!byId("picture").classList.contains("whole")));
   byId("unfold").addEventListener("click", () => foldAll(true));
   byId("fold").addEventListener("click", () => foldAll(false));
-  byId("provenance").replaceChildren(...[["Version", data.version], ["Call", data.call]].map(([name, value]) =>
-    element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+  listProvenance([["Version", data.version], ["Call", data.call]]);
   show(blocks.get(decodeURIComponent(location.hash.slice(1))) ?? data.root);
   entries.get("").entry.open = true;
-}
-
-function inMilliseconds(microseconds) {
-  return String(Number((microseconds / 1000).toPrecision(4)));
 }
 
 start();

@@ -69,6 +69,12 @@ function byId(id) {
   return document.getElementById(id);
 }
 
+/** How the page was made: pairs of a name and a value, in its list "provenance". */
+function listProvenance(pairs) {
+  byId("provenance").replaceChildren(...pairs.map(([name, value]) =>
+    element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+}
+
 function capitalised(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }

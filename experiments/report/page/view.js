@@ -185,7 +185,7 @@ class View {
     return { ...lineEnds(...far), visibility: "visible" };
   }
 
-  /** Rings where contact and detection happened, and a wave that runs out from the platform as it notices. */
+  /** Rings where contact and detection happened, and a wave that runs out from the platform as it detects. */
   showMarks(pose, sample) {
     const current = contactAt(timeOf(sample));
     for (const mark of this.events) {

@@ -147,8 +147,7 @@ function showStudy() {
   showBody(bodies[0]);
   showCells();
   byId("text").textContent = study.text;
-  byId("provenance").replaceChildren(...Object.entries(study.provenance).map(([name, value]) =>
-    element("div", {}, element("dt", {}, name), element("dd", {}, value))));
+  listProvenance(Object.entries(study.provenance));
   choose(0);
 }
 

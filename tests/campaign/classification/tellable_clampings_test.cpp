@@ -57,8 +57,8 @@ std::size_t first_detection(const Recording& recording, const std::string& path)
 void set_to_truth(const RecordedValues<PlantTruth>& truth, const RecordedValues<ContactTruth>& contact,
                   std::size_t tick, DataSample& sample) {
   sample.pose = truth[tick].pose;
-  for (std::size_t i = 0; i < history_ages.size(); ++i) {
-    const std::size_t then = tick - static_cast<std::size_t>(history_ages[i] / 1ms);
+  for (std::size_t i = 0; i < window_ages.size(); ++i) {
+    const std::size_t then = tick - static_cast<std::size_t>(window_ages[i] / 1ms);
     sample.course[i] = {contact[then].wrench_in_base, truth[then].velocity};
   }
 }

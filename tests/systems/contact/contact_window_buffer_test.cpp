@@ -11,7 +11,7 @@
 namespace flinch {
 namespace {
 
-constexpr int oldest = static_cast<int>(history_ages.back() / 1ms);
+constexpr int oldest = static_cast<int>(window_ages.back() / 1ms);
 
 PlatformVector squared(int tick) { return Eigen::Vector3d(tick * tick, -2.0 * tick * tick, 0.1 * tick); }
 PlatformVector cubed(int tick) { return Eigen::Vector3d(tick * tick * tick, 0.3 * tick, -tick); }
@@ -59,8 +59,8 @@ TEST(ContactWindowBuffer, KnowsWhatWasThereAtEachAge) {
   const ContactWindow course = memory.course();
   ASSERT_TRUE(course.valid);
   EXPECT_EQ(course.acquired, 70ms);
-  for (std::size_t i = 0; i < history_ages.size(); ++i) {
-    const int then = 70 - static_cast<int>(history_ages[i] / 1ms);
+  for (std::size_t i = 0; i < window_ages.size(); ++i) {
+    const int then = 70 - static_cast<int>(window_ages[i] / 1ms);
     EXPECT_EQ(course.moments[i].wrench_in_base, squared(then)) << i;
     EXPECT_EQ(course.moments[i].velocity, cubed(then)) << i;
   }
@@ -114,8 +114,8 @@ TEST(ContactWindowBuffer, KnowsTheCourseWhereStampsJitter) {
       memory.see(tick, true, true, static_cast<std::int64_t>(random() % 1000) * jitter / 1000);
       ASSERT_EQ(memory.course().valid, tick >= oldest) << tick << ", jitter " << jitter.count();
       if (tick < oldest) continue;
-      for (std::size_t i = 0; i < history_ages.size(); ++i) {
-        const int then = tick - static_cast<int>(history_ages[i] / 1ms);
+      for (std::size_t i = 0; i < window_ages.size(); ++i) {
+        const int then = tick - static_cast<int>(window_ages[i] / 1ms);
         EXPECT_EQ(memory.course().moments[i].wrench_in_base, squared(then)) << tick;
       }
     }
@@ -169,8 +169,8 @@ TEST(ContactWindowBuffer, LiesBetweenTicksThatAreLong) {
   for (int tick = 0; tick <= 20; ++tick) memory.see(tick);
   const ContactWindow course = memory.course();
   ASSERT_TRUE(course.valid);
-  for (std::size_t i = 0; i < history_ages.size(); ++i) {
-    const double tick = 20.0 - to_seconds(history_ages[i]) / 4e-3, share = tick - std::floor(tick);
+  for (std::size_t i = 0; i < window_ages.size(); ++i) {
+    const double tick = 20.0 - to_seconds(window_ages[i]) / 4e-3, share = tick - std::floor(tick);
     EXPECT_NEAR(course.moments[i].wrench_in_base[0], tick * tick + share * (1.0 - share), 1e-9) << i;
   }
 }

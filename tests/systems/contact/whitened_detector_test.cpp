@@ -45,7 +45,7 @@ class WhitenedDetectorTest : public testing::Test {
     for (int k = 0; k < 300; ++k) see(effort, late);
     ASSERT_EQ(see(effort, late).level, ContactLevel::none);
   }
-  bool notices(double effort) { return see(effort).present_level != ContactLevel::none; }
+  bool detects(double effort) { return see(effort).present_level != ContactLevel::none; }
 
   DiagramBuilder builder_;
   WhitenedDetector& block_;
@@ -68,20 +68,20 @@ class WhitenedDetectorTest : public testing::Test {
 
 TEST_F(WhitenedDetectorTest, NoticesAStepAboveTheThresholdOfItsChangeAlone) {
   settle();
-  EXPECT_FALSE(notices(0.499));
+  EXPECT_FALSE(detects(0.499));
   settle();
-  EXPECT_TRUE(notices(0.501));
+  EXPECT_TRUE(detects(0.501));
 }
 
 TEST_F(WhitenedDetectorTest, DoesNotNoticeWhatGrowsSlowly) {
   settle();
-  for (double effort = 0.0; effort < 1.9; effort += 0.01) EXPECT_FALSE(notices(effort)) << effort;
+  for (double effort = 0.0; effort < 1.9; effort += 0.01) EXPECT_FALSE(detects(effort)) << effort;
 }
 
 TEST_F(WhitenedDetectorTest, NoticesWhatLastsByTheLevel) {
   settle();
   double effort = 0.0;
-  while (!notices(effort) && effort < 3.0) effort += 0.01;
+  while (!detects(effort) && effort < 3.0) effort += 0.01;
   EXPECT_NEAR(effort, 2.0, 0.011) << "20 deviations";
 }
 
@@ -96,7 +96,7 @@ class Smoothing : public WhitenedDetectorTest {
   }
   int ticks_to_notice(double effort) {
     for (int k = 1; k < 200; ++k)
-      if (notices(effort)) return k;
+      if (detects(effort)) return k;
     return 0;
   }
 };
@@ -118,19 +118,19 @@ TEST_F(Smoothing, ExpectsOfADriveAtRestWhatItMayHoldByFriction) {
 TEST_F(Smoothing, WaitsUntilItHasSettled) {
   load_.rate = Eigen::Vector3d::Constant(1.0);
   const auto settling = static_cast<int>(WhitenedDetectorSettings{}.tracking.smoothing_time() / 1ms);
-  for (int k = 0; k < settling; ++k) ASSERT_FALSE(notices(0.1)) << k;
-  EXPECT_TRUE(notices(0.1) || notices(0.1));
+  for (int k = 0; k < settling; ++k) ASSERT_FALSE(detects(0.1)) << k;
+  EXPECT_TRUE(detects(0.1) || detects(0.1));
 }
 
 TEST_F(WhitenedDetectorTest, ExpectsLargerErrorsWhereFrictionOrTorqueHaveJustChanged) {
   settle();
   load_.friction[0] = 1.2;
-  EXPECT_FALSE(notices(2.4)) << "five deviations of hypot(0.1, 0.5 1.2)";
+  EXPECT_FALSE(detects(2.4)) << "five deviations of hypot(0.1, 0.5 1.2)";
   settle();
   load_.torque[0] = 4.0;
-  EXPECT_FALSE(notices(2.4 + 0.5));
+  EXPECT_FALSE(detects(2.4 + 0.5));
   settle();
-  EXPECT_TRUE(notices(2.4 + 1.2)) << "nothing has changed";
+  EXPECT_TRUE(detects(2.4 + 1.2)) << "nothing has changed";
 }
 
 /// Judges an estimator that answers through three filters.
@@ -147,13 +147,13 @@ class BehindFilters : public WhitenedDetectorTest {
 TEST_F(BehindFilters, AnErrorIsExpectedWhenTheEstimatorShowsIt) {
   settle();
   load_.friction[0] = 1.2;
-  for (int k = 1; k < 60; ++k) EXPECT_FALSE(notices(2.4 * test::answer_of_three_filters(0.3 * k))) << k;
+  for (int k = 1; k < 60; ++k) EXPECT_FALSE(detects(2.4 * test::answer_of_three_filters(0.3 * k))) << k;
 }
 
 TEST_F(BehindFilters, AnErrorIsNotExpectedBefore) {
   settle();
   load_.friction[0] = 1.2;
-  EXPECT_TRUE(notices(0.6)) << "what friction does is not seen yet";
+  EXPECT_TRUE(detects(0.6)) << "what friction does is not seen yet";
 }
 
 /// Judges what changes by the likelihood ratio of onsets, of errors that are independent.
@@ -171,7 +171,7 @@ class ByOnsets : public WhitenedDetectorTest {
 // sample: 3, 4.1, 4.9, 5.6.
 TEST_F(ByOnsets, NoticesAStepThatIsTooSmallAtOnceAsSoonAsItsSamplesAddUp) {
   settle();
-  for (int n = 1; n <= 4; ++n) EXPECT_EQ(notices(0.3), n == 4) << n;
+  for (int n = 1; n <= 4; ++n) EXPECT_EQ(detects(0.3), n == 4) << n;
 }
 
 // An onset is told from the four samples before it, so nothing is detected until the fifth after the gap.
@@ -180,26 +180,26 @@ TEST_F(ByOnsets, BeginsAnewAfterASingleInvalidSample) {
   estimate_.valid = false;
   EXPECT_FALSE(see(0.0).valid);
   estimate_.valid = true;
-  for (std::size_t k = 0; k < AutoregressiveError::order; ++k) EXPECT_FALSE(notices(1.0)) << k;
-  EXPECT_TRUE(notices(1.6));
+  for (std::size_t k = 0; k < AutoregressiveError::order; ++k) EXPECT_FALSE(detects(1.0)) << k;
+  EXPECT_TRUE(detects(1.6));
 }
 
 TEST_F(ByOnsets, NoticesAStepAboveTheThresholdAtOnce) {
   settle();
-  EXPECT_FALSE(notices(0.499));
+  EXPECT_FALSE(detects(0.499));
   settle();
-  EXPECT_TRUE(notices(0.501));
+  EXPECT_TRUE(detects(0.501));
 }
 
 TEST_F(ByOnsets, NoticesNothingInSilenceNorInWhatGrowsSlowly) {
   settle();
-  for (double effort = 0.0; effort < 1.0; effort += 0.001) EXPECT_FALSE(notices(effort)) << effort;
+  for (double effort = 0.0; effort < 1.0; effort += 0.001) EXPECT_FALSE(detects(effort)) << effort;
 }
 
 TEST_F(ByOnsets, NoticesWhatLastsByTheLevel) {
   settle();
   double effort = 0.0;
-  while (!notices(effort) && effort < 3.0) effort += 0.001;
+  while (!detects(effort) && effort < 3.0) effort += 0.001;
   EXPECT_NEAR(effort, 2.0, 0.0011) << "20 deviations";
 }
 
@@ -208,14 +208,14 @@ TEST_F(ByOnsets, BeginsAnewAfterAGapAndWaitsForItsMean) {
   estimate_.valid = false;
   for (int k = 0; k < 10; ++k) EXPECT_FALSE(see(0.0).valid);
   estimate_.valid = true;
-  for (int k = 0; k < 60; ++k) EXPECT_FALSE(notices(1.0));
+  for (int k = 0; k < 60; ++k) EXPECT_FALSE(detects(1.0));
   settle(1.0);
-  EXPECT_TRUE(notices(1.6));
+  EXPECT_TRUE(detects(1.6));
 }
 
 TEST_F(ByOnsets, NoticesNothingInATickWithoutANewEstimateNorOfAnotherEstimator) {
   settle();
-  ASSERT_TRUE(notices(1.0));
+  ASSERT_TRUE(detects(1.0));
   const Time late = ticking_.now() - estimate_.acquired;
   EXPECT_EQ(see(1.0, late).present_level, ContactLevel::none);
   estimate_.health.fallen_back = true;
@@ -226,8 +226,8 @@ TEST_F(ByOnsets, NoticesNothingInATickWithoutANewEstimateNorOfAnotherEstimator) 
 TEST_F(ByOnsets, IsNotLedAstrayByWhatIsNotFinite) {
   settle();
   EXPECT_EQ(see(nan).level, ContactLevel::none);
-  for (int k = 0; k < 100; ++k) EXPECT_FALSE(notices(0.0));
-  EXPECT_TRUE(notices(1.0));
+  for (int k = 0; k < 100; ++k) EXPECT_FALSE(detects(0.0));
+  EXPECT_TRUE(detects(1.0));
 }
 
 TEST_F(ByOnsets, NeverAllocates) {
@@ -279,15 +279,15 @@ TEST_F(WhitenedDetectorTest, BeginsAnewAfterAGapAndWaitsForItsMean) {
   estimate_.valid = false;
   for (int k = 0; k < 10; ++k) EXPECT_FALSE(see(0.0).valid);
   estimate_.valid = true;
-  EXPECT_FALSE(notices(1.0)) << "there is no mean of late to compare with";
-  for (int k = 0; k < 59; ++k) EXPECT_FALSE(notices(1.0));
+  EXPECT_FALSE(detects(1.0)) << "there is no mean of late to compare with";
+  for (int k = 0; k < 59; ++k) EXPECT_FALSE(detects(1.0));
   settle(1.0);
-  EXPECT_TRUE(notices(1.6));
+  EXPECT_TRUE(detects(1.6));
 }
 
 TEST_F(WhitenedDetectorTest, NoticesNothingInATickWithoutANewEstimate) {
   settle();
-  ASSERT_TRUE(notices(1.0));
+  ASSERT_TRUE(detects(1.0));
   const Time acquired = estimate_.acquired;
   const Time late = ticking_.now() - acquired;
   EXPECT_EQ(see(1.0, late).present_level, ContactLevel::none);
@@ -301,7 +301,7 @@ TEST_F(WhitenedDetectorTest, IsNotLedAstrayByWhatIsNotFinite) {
   EXPECT_EQ(see(0.0).level, ContactLevel::none);
   load_.valid = true;
   for (int k = 0; k < 100; ++k) see(0.0);
-  EXPECT_TRUE(notices(1.0));
+  EXPECT_TRUE(detects(1.0));
 }
 
 TEST_F(WhitenedDetectorTest, NeverAllocates) {
