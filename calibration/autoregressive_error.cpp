@@ -1,8 +1,9 @@
 #include "calibration/autoregressive_error.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

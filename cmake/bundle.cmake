@@ -11,14 +11,51 @@ function(flinch_bundle target largest)
   if(NOT FLINCH_BUNDLE OR NOT Python3_Interpreter_FOUND)
     return()
   endif()
-  execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/bundles.py ${largest} ${ARGN}
-                  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
-  string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+  flinch_bundles(lines ${largest} ${ARGN})
   while(lines)
     list(POP_FRONT lines number file)
     set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${target}_${number})
   endwhile()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  flinch_warn_as_bundled(${target})
+endfunction()
+
+# flinch_bundle_tests(<variable> <target> <largest> <source>...): the sources to make a target of instead of these, which
+# are tests. Their names do not matter (bundles.py), so that few of them stand alone.
+function(flinch_bundle_tests variable target largest)
+  if(NOT FLINCH_BUNDLE OR NOT Python3_Interpreter_FOUND)
+    set(${variable} ${ARGN} PARENT_SCOPE)
+    return()
+  endif()
+  flinch_bundles(lines --tests ${largest} ${ARGN})
+  set(numbers "")
+  while(lines)
+    list(POP_FRONT lines number file)
+    list(APPEND numbers ${number})
+    list(APPEND files_${number} ${file})
+  endwhile()
+  list(REMOVE_DUPLICATES numbers)
+  set(bundles "")
+  foreach(number IN LISTS numbers)
+    set(bundle ${CMAKE_CURRENT_BINARY_DIR}/bundles/${target}_${number}.cpp)
+    add_custom_command(OUTPUT ${bundle}
+      COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/bundles.py --write ${bundle} ${files_${number}}
+      DEPENDS ${files_${number}} ${PROJECT_SOURCE_DIR}/cmake/bundles.py
+      VERBATIM)
+    list(APPEND bundles ${bundle})
+  endforeach()
+  file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/bundles)
+  set(${variable} ${bundles} PARENT_SCOPE)
+endfunction()
+
+function(flinch_bundles variable)
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/bundles.py ${ARGN}
+                  WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+  set(${variable} ${lines} PARENT_SCOPE)
+endfunction()
+
+function(flinch_warn_as_bundled target)
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANGUAGE:CXX>:-Wno-shadow>
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-use-after-free -Wno-subobject-linkage>)

@@ -1,9 +1,9 @@
 #include "convert/chain_motion.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 
+#include "systems/robot/decompositions.h"
 #include "systems/robot/legs/platform_twist.h"
 
 namespace flinch {

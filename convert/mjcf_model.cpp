@@ -151,7 +151,7 @@ class MjcfReader {
     if (of.has("zaxis")) {
       const Eigen::Vector3d z = of.vector("zaxis", Eigen::Vector3d::UnitZ());
       if (!(z.norm() > 1e-9)) of.said("zaxis").refuse("has a zaxis without length");
-      return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), z).toRotationMatrix();
+      return axes_with_z_along(z);
     }
     return Eigen::Matrix3d::Identity();
   }
@@ -321,7 +321,7 @@ class MjcfReader {
       const Eigen::Vector3d way = Eigen::Vector3d(ends[3], ends[4], ends[5]) - from;
       half = 0.5 * way.norm();
       at = translation(from + 0.5 * way);
-      at.linear() = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), way).toRotationMatrix();
+      at.linear() = axes_with_z_along(way);
     }
     RigidBodyInertia shape;
     const auto mass_of = [&](double volume) {

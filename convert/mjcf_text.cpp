@@ -1,6 +1,5 @@
 #include "convert/mjcf_text.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include "convert/platform_at_home.h"
 #include "convert/xml_tag.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/legs/legs_model.h"
 
 namespace flinch {

@@ -1,10 +1,10 @@
 #include "convert/platform_motion.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <random>
 
 #include "systems/foundation/nearest_name.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -1,5 +1,6 @@
 #include "convert/solids.h"
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 namespace flinch {
@@ -40,6 +41,10 @@ RigidBodyInertia solid_capsule(double mass, double radius, double length) {
 RigidBodyInertia solid_box(double mass, const Eigen::Vector3d& half_lengths) {
   const Eigen::Vector3d squares = half_lengths.cwiseAbs2();
   return solid(mass, mass / 3.0 * (Eigen::Vector3d::Constant(squares.sum()) - squares));
+}
+
+Eigen::Matrix3d axes_with_z_along(const Eigen::Vector3d& direction) {
+  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction).toRotationMatrix();
 }
 
 }  // namespace flinch

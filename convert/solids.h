@@ -17,4 +17,7 @@ RigidBodyInertia solid_cylinder(double mass, double radius, double length);
 RigidBodyInertia solid_capsule(double mass, double radius, double length);
 RigidBodyInertia solid_box(double mass, const Eigen::Vector3d& half_lengths);
 
+/// Axes whose z points along `direction`, of any length but none.
+Eigen::Matrix3d axes_with_z_along(const Eigen::Vector3d& direction);
+
 }  // namespace flinch

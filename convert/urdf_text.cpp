@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "convert/platform_at_home.h"
+#include "convert/solids.h"
 #include "convert/urdf_joints.h"
 #include "convert/urdf_model.h"
 #include "convert/xml_tag.h"
@@ -37,9 +38,7 @@ struct GeometryOf {
   }
   Geometry operator()(const Capsule& one) const {
     const Eigen::Vector3d along = one.end - one.begin;
-    const Eigen::Matrix3d axes =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), along).toRotationMatrix();
-    return {pose_at(0.5 * (one.begin + one.end), axes),
+    return {pose_at(0.5 * (one.begin + one.end), axes_with_z_along(along)),
             XmlTag("cylinder").number("radius", one.radius).number("length", along.norm()).closed()};
   }
   Geometry operator()(const Box& one) const {

@@ -1,11 +1,11 @@
 #include "identification/dominant_wave.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "systems/foundation/median.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -24,6 +23,7 @@
 #include "systems/config/robot_file.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/recording.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/dynamic_parameters.h"
 
 namespace flinch {

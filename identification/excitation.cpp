@@ -1,6 +1,5 @@
 #include "identification/excitation.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,6 +7,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
 #include "systems/motion/platform_path.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/dynamic_parameters.h"
 #include "systems/robot/parameter_variants.h"
 

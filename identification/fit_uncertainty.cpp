@@ -1,11 +1,11 @@
 #include "identification/fit_uncertainty.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

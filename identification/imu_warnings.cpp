@@ -2,13 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "identification/likely_scale.h"
 #include "identification/swapped_axes.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

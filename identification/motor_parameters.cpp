@@ -1,6 +1,5 @@
 #include "identification/motor_parameters.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +7,7 @@
 
 #include "identification/dominant_wave.h"
 #include "identification/robust_mean.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/mechanism.h"
 
 namespace flinch {

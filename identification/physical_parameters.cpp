@@ -1,13 +1,12 @@
 #include "identification/physical_parameters.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include "identification/likely_scale.h"
 #include "identification/swapped_axes.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

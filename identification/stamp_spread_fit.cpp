@@ -1,10 +1,10 @@
 #include "identification/stamp_spread_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "systems/foundation/median.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

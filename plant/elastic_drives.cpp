@@ -1,11 +1,10 @@
 #include "plant/elastic_drives.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "systems/foundation/findings.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/motion_equations.h"
 
 namespace flinch {

@@ -1,6 +1,5 @@
 #include "plant/rig_dynamics.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include "plant/planar_rig.h"
 #include "plant/rig_of.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/planar_rrr.h"
 
 namespace flinch {

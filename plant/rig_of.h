@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
 #include "plant/hunt_crossley.h"
 #include "plant/rig_dynamics.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 

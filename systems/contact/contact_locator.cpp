@@ -1,7 +1,5 @@
 #include "systems/contact/contact_locator.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -13,6 +11,7 @@
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/alike_links.h"
 #include "systems/robot/contact_jacobian.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/line_of_action.h"
 #include "systems/robot/rotation.h"
 

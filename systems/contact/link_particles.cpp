@@ -1,9 +1,10 @@
 #include "systems/contact/link_particles.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

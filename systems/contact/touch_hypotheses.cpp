@@ -1,6 +1,5 @@
 #include "systems/contact/touch_hypotheses.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "systems/contact/wrench_line.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/outline.h"
 
 namespace flinch {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 #include <memory>
 #include <vector>
 
 #include "systems/contact/touch_places.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/outline.h"
 #include "systems/robot/parallel_robot.h"
 #include "systems/signals/contact_classes.h"

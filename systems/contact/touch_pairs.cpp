@@ -1,6 +1,5 @@
 #include "systems/contact/touch_pairs.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/contact_jacobian.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/planar_leg.h"
 
 namespace flinch {

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 
@@ -19,8 +20,9 @@ double chain_observability() {
     if constexpr (states == 3) O(step, 2) = 0.5 * step * step;
   }
   O.colwise().normalize();
+  const Eigen::Matrix<double, states, states> gramian = O.transpose() * O;
   const Eigen::Matrix<double, states, 1> squares =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, states, states>>(O.transpose() * O).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, states, states>>(gramian).eigenvalues();
   return std::sqrt(squares[0] / squares[states - 1]);
 }
 

@@ -1,7 +1,5 @@
 #include "systems/estimators/imu_filter.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -10,6 +8,7 @@
 #include "systems/estimators/innovation_mean.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/signals/stamp_spread.h"
 
 namespace flinch {

@@ -1,6 +1,5 @@
 #include "systems/estimators/imu_residual.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "systems/estimators/innovation_mean.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/forward_dynamics.h"
 #include "systems/signals/driven_share.h"
 #include "systems/signals/sample_at.h"

@@ -1,7 +1,5 @@
 #include "systems/estimators/momentum_kalman_filter.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,6 +9,7 @@
 #include "systems/estimators/innovation_mean.h"
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -1,6 +1,5 @@
 #include "systems/laws/safety_filter.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -1,10 +1,10 @@
 #include "systems/laws/task_energy.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 
 #include "systems/laws/task_level.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -1,11 +1,11 @@
 #include "systems/laws/task_level.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "systems/laws/share_within.h"
 #include "systems/laws/wrench_reference.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -1,7 +1,8 @@
 #include "systems/laws/task_priority.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -1,9 +1,9 @@
 #include "systems/laws/wrench_reference.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "systems/laws/task_priority.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/impedance_damping.h"
 
 namespace flinch {

@@ -1,6 +1,5 @@
 #include "systems/motion/reaction_task.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "systems/motion/chart_motion.h"
 #include "systems/motion/pose_goals.h"
 #include "systems/robot/angles.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/link_segments.h"
 #include "systems/robot/reaction_tasks.h"
 

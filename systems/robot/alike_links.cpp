@@ -1,8 +1,7 @@
 #include "systems/robot/alike_links.h"
 
-#include <Eigen/SVD>
-
 #include "systems/robot/contact_jacobian.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/link_segments.h"
 
 namespace flinch {

@@ -1,12 +1,12 @@
 #include "systems/robot/constraint_tasks.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
+#include "systems/robot/decompositions.h"
 #include "systems/robot/link_segments.h"
 
 namespace flinch {

@@ -1,8 +1,9 @@
 #include "systems/robot/convex_hull.h"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 
@@ -11,7 +12,8 @@ double thickness(const ConvexHull& hull) {
   Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(hull.points.size()));
   for (Eigen::Index i = 0; i < points.cols(); ++i) points.col(i) = hull.points[static_cast<std::size_t>(i)];
   points.colwise() -= Eigen::Vector3d(points.rowwise().mean());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scatter(points * points.transpose());
+  const Eigen::Matrix3d moments = points * points.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scatter(moments);
   const Eigen::RowVectorXd along = scatter.eigenvectors().col(0).transpose() * points;
   return along.maxCoeff() - along.minCoeff();
 }

@@ -1,12 +1,12 @@
 #include "systems/robot/five_bar.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/planar_contact.h"
 #include "systems/robot/planar_leg_dynamics.h"
 

@@ -1,6 +1,6 @@
 #include "systems/robot/forward_dynamics.h"
 
-#include <Eigen/Cholesky>
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -1,7 +1,5 @@
 #include "systems/robot/hexapod.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +8,7 @@
 #include <variant>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/hexapod_outline.h"
 #include "systems/robot/robot_deviation.h"
 #include "systems/robot/rotation.h"
@@ -93,7 +92,8 @@ bool is_working_mode(const WorkingMode& mode) { return mode.size() == 6 && (mode
 
 // Infinite if A is singular to working precision.
 double condition_number(const Matrix6& A) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> squared(A.transpose() * A, Eigen::EigenvaluesOnly);
+  const Matrix6 A_squared = A.transpose() * A;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> squared(A_squared, Eigen::EigenvaluesOnly);
   const double smallest = squared.eigenvalues()[0];
   const double largest = squared.eigenvalues()[5];
   const bool regular = smallest > std::numeric_limits<double>::epsilon() * largest;

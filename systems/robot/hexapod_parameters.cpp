@@ -1,10 +1,10 @@
 #include "systems/robot/hexapod_parameters.h"
 
-#include <Eigen/Eigenvalues>
 #include <cstddef>
 #include <sstream>
 
 #include "systems/foundation/findings.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/rotation.h"
 
 namespace flinch {

@@ -1,8 +1,8 @@
 #include "systems/robot/impedance_damping.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

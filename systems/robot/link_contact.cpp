@@ -1,11 +1,12 @@
 #include "systems/robot/link_contact.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

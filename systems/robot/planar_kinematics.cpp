@@ -1,10 +1,11 @@
 #include "systems/robot/planar_kinematics.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

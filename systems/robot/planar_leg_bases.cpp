@@ -1,11 +1,11 @@
 #include "systems/robot/planar_leg_bases.h"
 
-#include <Eigen/LU>
 #include <array>
 #include <cstddef>
 #include <utility>
 
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/joint_friction.h"
 #include "systems/robot/planar_leg.h"
 

@@ -1,6 +1,5 @@
 #include "systems/robot/planar_rrr.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -8,6 +7,7 @@
 
 #include "systems/foundation/setup_error.h"
 #include "systems/robot/angles.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/planar_contact.h"
 #include "systems/robot/planar_determinants.h"
 #include "systems/robot/planar_kinematics.h"

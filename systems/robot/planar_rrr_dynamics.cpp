@@ -1,7 +1,7 @@
-#include <Eigen/LU>
 #include <cmath>
 #include <cstddef>
 
+#include "systems/robot/decompositions.h"
 #include "systems/robot/planar_leg_dynamics.h"
 #include "systems/robot/planar_rrr.h"
 

@@ -1,11 +1,12 @@
 #include "systems/robot/quadratic_programme.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

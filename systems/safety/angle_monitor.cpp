@@ -1,8 +1,9 @@
 #include "systems/safety/angle_monitor.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

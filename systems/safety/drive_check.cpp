@@ -1,6 +1,5 @@
 #include "systems/safety/drive_check.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -8,6 +7,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/foundation/setup_error.h"
+#include "systems/robot/decompositions.h"
 #include "systems/signals/sampling.h"
 
 namespace flinch {

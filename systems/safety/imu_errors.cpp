@@ -1,13 +1,11 @@
 #include "systems/safety/imu_errors.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "systems/robot/decompositions.h"
 #include "systems/signals/sampling.h"
 
 namespace flinch {

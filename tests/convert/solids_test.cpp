@@ -53,5 +53,15 @@ TEST(Solids, HaveTheMomentsOfTheirPieces) {
   expect_moments(solid_box(1.0, half), moments_of_pieces([](const auto&) { return true; }, half));
 }
 
+TEST(Solids, HaveAxesAlongAnyDirection) {
+  for (const Eigen::Vector3d& along : {Eigen::Vector3d(0.0, 0.0, 2.0), Eigen::Vector3d(0.0, 0.0, -2.0),
+                                       Eigen::Vector3d(0.3, -0.4, 0.1), Eigen::Vector3d(1.0, 0.0, 0.0)}) {
+    const Eigen::Matrix3d axes = axes_with_z_along(along);
+    EXPECT_TRUE(axes.col(2).isApprox(along.normalized(), 1e-14)) << axes;
+    EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-14)) << axes;
+    EXPECT_NEAR(axes.determinant(), 1.0, 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace flinch

@@ -35,7 +35,7 @@ RunResult example(std::size_t run) {
 }
 
 /// A row with its checksum: FNV-1a of its bytes.
-std::string sealed(const std::string& row) {
+std::string sealed_row(const std::string& row) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : row) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
   char text[32];
@@ -52,24 +52,24 @@ std::string first_line(const Campaign& campaign) {
   return text.substr(0, text.find('\n') + 1);
 }
 
-void read(std::string_view bytes) {
+void try_campaign_journal(std::string_view bytes) {
   static const Campaign campaign = hundred_runs();
   static const std::string first = first_line(campaign);
   static const std::filesystem::path folder = fuzz_folder() / "campaign";
   std::filesystem::create_directories(folder);
   std::string journal = first;
   std::istringstream rows{std::string(bytes)};
-  for (std::string row; std::getline(rows, row);) journal += sealed(row);
+  for (std::string row; std::getline(rows, row);) journal += sealed_row(row);
   fuzz_file("campaign/results.part", journal);
   CampaignJournal(folder, campaign).results();
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> campaign_journal_seeds() {
   return {csv_header(example(0)) + "\n" + csv_row(example(3)) + "\n" + csv_row(example(7)) + "\n"};
 }
 
 }  // namespace
 
-const FuzzTarget campaign_journal_target{"campaign_journal", read, seeds};
+const FuzzTarget campaign_journal_target{"campaign_journal", try_campaign_journal, campaign_journal_seeds};
 
 }  // namespace flinch::test

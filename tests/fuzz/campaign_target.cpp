@@ -25,7 +25,7 @@ void write_scenario() {
             "jerk_m_per_s3: 600}, obstacles: [{x_m: 0, y_m: 0.5, radius_mm: 20, stiffness_N_per_m: 6000}]}");
 }
 
-void read(std::string_view bytes) {
+void try_campaign(std::string_view bytes) {
   [[maybe_unused]] static const bool written = (write_scenario(), true);
   const Campaign campaign = read_campaign(fuzz_file("campaign.yaml", bytes));
   check_keys(campaign);
@@ -37,7 +37,7 @@ void read(std::string_view bytes) {
   }
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> campaign_seeds() {
   std::vector<std::string> all = shipped_files("campaigns", ".yaml");
   all.push_back(
       "{scenario: scenario.yaml, runs: 3, grid: [{key: control.momentum_observer.gain_per_s, values: [[20, "
@@ -53,6 +53,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget campaign_target{"campaign", read, seeds};
+const FuzzTarget campaign_target{"campaign", try_campaign, campaign_seeds};
 
 }  // namespace flinch::test

@@ -9,13 +9,13 @@ namespace {
 
 const std::string between = "\n---\n";
 
-void read(std::string_view bytes) {
+void try_csv(std::string_view bytes) {
   const std::size_t end = bytes.find(between);
   fuzz_file("log.csv", end == std::string_view::npos ? "" : bytes.substr(end + between.size()));
   read_all_of(import_log(fuzz_file("mapping.yaml", bytes.substr(0, end))));
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> csv_seeds() {
   std::string mapping = "csv: log.csv\nscenario: " FLINCH_SOURCE_DIR
                         "/apps/scenarios/five_bar_collision.yaml\nseparator: ','\nperiod_ms: 1\n"
                         "time: {column: t, unit: s}\ncolumns:\n";
@@ -29,6 +29,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget csv_target{"csv", read, seeds};
+const FuzzTarget csv_target{"csv", try_csv, csv_seeds};
 
 }  // namespace flinch::test

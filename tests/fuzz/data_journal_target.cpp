@@ -38,14 +38,14 @@ std::string sealed(std::string_view frame) {
 }
 
 /// One frame that is good, then one that promises as many bytes as there could be.
-void read(std::string_view bytes) {
+void try_data_journal(std::string_view bytes) {
   static const std::string header = journal_of(nullptr);
   std::string journal = header + sealed(bytes);
   journal.append("\xff\xff\xff\x3f\0\0\0\0", 8).append("12345678 and too little");
   const DataJournal read(fuzz_file("fuzzed.part", journal), DataSpec{}, robot());
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> data_journal_seeds() {
   ContactSamples samples;
   for (int i = 0; i < 3; ++i) {
     DataSample& sample = samples.samples.emplace_back();
@@ -58,6 +58,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget data_journal_target{"data_journal", read, seeds};
+const FuzzTarget data_journal_target{"data_journal", try_data_journal, data_journal_seeds};
 
 }  // namespace flinch::test

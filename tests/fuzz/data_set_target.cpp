@@ -8,9 +8,9 @@
 namespace flinch::test {
 namespace {
 
-void read(std::string_view bytes) { counts_table(read_data_set(fuzz_file("fuzzed_set.h5", bytes))); }
+void try_data_set(std::string_view bytes) { counts_table(read_data_set(fuzz_file("fuzzed_set.h5", bytes))); }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> data_set_seeds() {
   DataSet data;
   data.robot_file = "five_bar.yaml";
   data.robot_text = bytes_of(FLINCH_SOURCE_DIR "/apps/robots/five_bar.yaml");
@@ -30,6 +30,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget data_set_target{"data_set", read, seeds};
+const FuzzTarget data_set_target{"data_set", try_data_set, data_set_seeds};
 
 }  // namespace flinch::test

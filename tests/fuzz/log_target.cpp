@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_columns = 16;
 
-void read(std::string_view bytes) {
+void try_log(std::string_view bytes) {
   const std::unique_ptr<LogFile> log = open_log(fuzz_file("some.log", bytes));
   std::vector<std::size_t> wanted(std::min(log->columns().size(), most_columns));
   std::iota(wanted.begin(), wanted.end(), std::size_t{0});
@@ -26,7 +26,7 @@ void read(std::string_view bytes) {
   if (!wanted.empty()) log->read_instants(0, ClockUnit::s);
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> log_seeds() {
   const std::filesystem::path recording = fuzz_folder() / "seed.h5";
   write_recording(honest_recording(), recording);
   return {
@@ -46,6 +46,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget log_target{"log", read, seeds};
+const FuzzTarget log_target{"log", try_log, log_seeds};
 
 }  // namespace flinch::test

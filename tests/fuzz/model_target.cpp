@@ -5,7 +5,7 @@
 namespace flinch::test {
 namespace {
 
-void read(std::string_view bytes) {
+void try_model(std::string_view bytes) {
   BodyGraph graph = read_model(bytes, "fuzzed.xml");
   if (graph.bodies.size() > 20) return;  // what large ones cost, they ask for
   const std::string platform = graph.bodies.back().name;
@@ -15,12 +15,12 @@ void read(std::string_view bytes) {
   }
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> model_seeds() {
   return {model_text("five_bar.urdf"), model_text("five_bar.sdf"), model_text("two_rods.xml")};
 }
 
 }  // namespace
 
-const FuzzTarget model_target{"model", read, seeds};
+const FuzzTarget model_target{"model", try_model, model_seeds};
 
 }  // namespace flinch::test

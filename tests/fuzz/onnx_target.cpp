@@ -7,7 +7,7 @@
 namespace flinch::test {
 namespace {
 
-void read(std::string_view bytes) {
+void try_onnx(std::string_view bytes) {
   const ClassifierModel model = parse_onnx(std::string(bytes), "fuzzed.onnx");
   const NeuralNetwork network(model.network);
   NeuralNetwork::Values outputs;
@@ -15,7 +15,7 @@ void read(std::string_view bytes) {
   onnx_bytes(model);
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> onnx_seeds() {
   ClassifierModel model;
   model.features = {"force", "distance"};
   model.units = {"N", "m"};
@@ -36,6 +36,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget onnx_target{"onnx", read, seeds};
+const FuzzTarget onnx_target{"onnx", try_onnx, onnx_seeds};
 
 }  // namespace flinch::test

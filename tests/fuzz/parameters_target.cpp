@@ -20,7 +20,7 @@ const Scenario& believed() {
   return scenario;
 }
 
-void read(std::string_view bytes) {
+void try_parameters(std::string_view bytes) {
   const ParameterFile parameters = parse_parameter_file(bytes, "fuzzed.yaml");
   parameter_file_text(parameters);
   const Scenario& scenario = believed();
@@ -34,7 +34,7 @@ void read(std::string_view bytes) {
   with_parameters(robot_text(), "planar_3rrr.yaml", parameters);
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> parameters_seeds() {
   ParameterFile file;
   file.kind = "torque-constant";
   file.date = "2026-11-22";
@@ -57,6 +57,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget parameters_target{"parameters", read, seeds};
+const FuzzTarget parameters_target{"parameters", try_parameters, parameters_seeds};
 
 }  // namespace flinch::test

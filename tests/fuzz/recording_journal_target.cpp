@@ -48,13 +48,13 @@ std::string with_good_frames(std::string_view hostile) {
   return bytes;
 }
 
-void read(std::string_view bytes) {
+void try_recording_journal(std::string_view bytes) {
   const std::filesystem::path file = fuzz_file("fuzzed.h5.part", with_good_frames(bytes));
   is_journal(file);
   read_all_of(open_journal(file));
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> recording_journal_seeds() {
   const Recording recording = honest_recording();
   const std::filesystem::path file = fuzz_folder() / "seed.h5.part";
   {
@@ -68,6 +68,7 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget recording_journal_target{"recording_journal", read, seeds};
+const FuzzTarget recording_journal_target{"recording_journal", try_recording_journal,
+                                          recording_journal_seeds};
 
 }  // namespace flinch::test

@@ -9,9 +9,9 @@
 namespace flinch::test {
 namespace {
 
-void read(std::string_view bytes) { read_all_of(open_recording(fuzz_file("fuzzed.h5", bytes))); }
+void try_recording(std::string_view bytes) { read_all_of(open_recording(fuzz_file("fuzzed.h5", bytes))); }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> recording_seeds() {
   const std::filesystem::path file = fuzz_folder() / "seed.h5";
   write_recording(honest_recording(), file);
   return {bytes_of(file)};
@@ -19,6 +19,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget recording_target{"recording", read, seeds};
+const FuzzTarget recording_target{"recording", try_recording, recording_seeds};
 
 }  // namespace flinch::test

@@ -6,12 +6,12 @@
 namespace flinch::test {
 namespace {
 
-void read(std::string_view bytes) { parse_robot_file(bytes, "fuzzed.yaml"); }
+void try_robot(std::string_view bytes) { parse_robot_file(bytes, "fuzzed.yaml"); }
 
-std::vector<std::string> seeds() { return shipped_files("robots", ".yaml"); }
+std::vector<std::string> robot_seeds() { return shipped_files("robots", ".yaml"); }
 
 }  // namespace
 
-const FuzzTarget robot_target{"robot", read, seeds};
+const FuzzTarget robot_target{"robot", try_robot, robot_seeds};
 
 }  // namespace flinch::test

@@ -48,7 +48,7 @@ void convert(std::string_view bytes) {
 }
 
 /// One sample after the other, each with the time until it arrives.
-void read(std::string_view bytes) {
+void try_samples(std::string_view bytes) {
   constexpr std::size_t size = sizeof(flinch_StatusSample) + 8;
   SampleAdmission admission({.robot = 7, .begins_neutral = true, .once = true});
   Time now = 1s;
@@ -67,7 +67,7 @@ void read(std::string_view bytes) {
   }
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> samples_seeds() {
   std::string bytes;
   for (std::uint32_t number = 1; number <= 3; ++number) {
     JointReading reading;
@@ -92,6 +92,6 @@ std::vector<std::string> seeds() {
 
 }  // namespace
 
-const FuzzTarget samples_target{"samples", read, seeds};
+const FuzzTarget samples_target{"samples", try_samples, samples_seeds};
 
 }  // namespace flinch::test

@@ -8,16 +8,16 @@
 namespace flinch::test {
 namespace {
 
-void read(std::string_view bytes) {
+void try_scenario(std::string_view bytes) {
   static RobotFiles robots;
   const std::string file = FLINCH_SOURCE_DIR "/apps/scenarios/fuzzed.yaml";
   parse_simulated_scenario(parse_yaml(bytes, file), file, robots);
 }
 
-std::vector<std::string> seeds() { return shipped_files("scenarios", ".yaml"); }
+std::vector<std::string> scenario_seeds() { return shipped_files("scenarios", ".yaml"); }
 
 }  // namespace
 
-const FuzzTarget scenario_target{"scenario", read, seeds};
+const FuzzTarget scenario_target{"scenario", try_scenario, scenario_seeds};
 
 }  // namespace flinch::test

@@ -20,7 +20,7 @@ void set_value(const std::string& text) {
   yaml_text(*with_value(*scenario, text.substr(0, equals), parse_yaml(text.substr(equals + 1), "--set")));
 }
 
-void read(std::string_view bytes) {
+void try_words(std::string_view bytes) {
   static const auto robot = load_robot(FLINCH_SOURCE_DIR "/apps/robots/planar_3rrr.yaml");
   const std::string text(bytes);
   const std::size_t end = text.find('\n');
@@ -29,13 +29,13 @@ void read(std::string_view bytes) {
   parse_fault(text_of(fault), *robot);  // what it writes it reads
 }
 
-std::vector<std::string> seeds() {
+std::vector<std::string> words_seeds() {
   return {"encoder2:drifting@0.5:-5\nmotion.speed_m_per_s=0.3",
           "drives:off@1\ncontrol.contact_detector.reaction_force_N=[1, {a: 2}]", "brakes:delayed@0.2:0.01"};
 }
 
 }  // namespace
 
-const FuzzTarget words_target{"words", read, seeds};
+const FuzzTarget words_target{"words", try_words, words_seeds};
 
 }  // namespace flinch::test

@@ -1,8 +1,8 @@
 #include "identification/fit_uncertainty.h"
+#include "systems/robot/decompositions.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <numeric>
 

@@ -1,10 +1,8 @@
 #include "identification/physical_parameters.h"
+#include "systems/robot/decompositions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "systems/config/robot_file.h"
 #include "systems/framework/random.h"

@@ -1,10 +1,10 @@
 #include "tests/peer/mujoco_legs.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 
 #include "convert/mjcf_text.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/rotation.h"
 
 namespace flinch::peer {

@@ -1,10 +1,9 @@
 #include "plant/elastic_drives.h"
+#include "systems/robot/decompositions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <iostream>

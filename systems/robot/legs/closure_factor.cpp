@@ -1,7 +1,8 @@
 #include "systems/robot/legs/closure_factor.h"
 
-#include <Eigen/LU>
 #include <cmath>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 

@@ -1,10 +1,6 @@
 #include "systems/robot/legs/home_assembly.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,6 +10,7 @@
 
 #include "systems/foundation/findings.h"
 #include "systems/robot/angles.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/legs/legs_assembly.h"
 #include "systems/robot/legs/legs_dynamics.h"
 #include "systems/robot/legs/rest_factor.h"

@@ -1,4 +1,3 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "systems/robot/body_moments.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/dynamic_parameters.h"
 #include "systems/robot/legs/legs_robot.h"
 #include "systems/robot/parameter_variants.h"

@@ -1,12 +1,12 @@
 #include "systems/robot/legs/legs_parameters.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
 
 #include "systems/foundation/findings.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/legs/leg_closure.h"
 #include "systems/robot/vectors.h"
 

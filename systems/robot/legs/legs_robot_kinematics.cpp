@@ -1,12 +1,10 @@
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "systems/robot/angles.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/legs/legs_assembly.h"
 #include "systems/robot/legs/legs_motion.h"
 #include "systems/robot/legs/legs_robot.h"

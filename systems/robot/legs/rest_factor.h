@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/QR>
-
+#include "systems/robot/decompositions.h"
 #include "systems/robot/legs/closure_factor.h"
 
 namespace flinch {

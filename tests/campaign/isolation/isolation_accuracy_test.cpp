@@ -3,7 +3,6 @@
 // instead of 30, FLINCH_SEED which, FLINCH_PUSHES how many pushes instead of 60.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "systems/contact/decision_tree.h"
 #include "systems/foundation/setup_error.h"
 #include "systems/framework/random.h"
+#include "systems/robot/decompositions.h"
 #include "tests/campaign/isolation/touched_bodies.h"
 #include "tests/support/wanted.h"
 

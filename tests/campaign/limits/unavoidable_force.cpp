@@ -1,7 +1,8 @@
 #include "tests/campaign/limits/unavoidable_force.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
+
+#include "systems/robot/decompositions.h"
 
 namespace flinch::test {
 

@@ -1,7 +1,6 @@
 #include "systems/contact/link_particles.h"
+#include "systems/robot/decompositions.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

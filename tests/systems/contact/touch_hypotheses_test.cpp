@@ -1,9 +1,9 @@
 #include "systems/contact/touch_hypotheses.h"
+#include "systems/robot/decompositions.h"
 
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -161,9 +161,9 @@ class ByOnsets : public WhitenedDetectorTest {
  protected:
   ByOnsets() : WhitenedDetectorTest(by_onsets()) {}
   static WhitenedDetectorSettings by_onsets() {
-    WhitenedDetectorSettings settings = flinch::settings();
-    settings.onset = {.threshold = 5.0, .course = {}};
-    return settings;
+    WhitenedDetectorSettings onsets = settings();
+    onsets.onset = {.threshold = 5.0, .course = {}};
+    return onsets;
   }
 };
 

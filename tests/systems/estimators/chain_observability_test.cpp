@@ -1,8 +1,7 @@
 #include "systems/estimators/chain_observability.h"
+#include "systems/robot/decompositions.h"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/SVD>
 
 namespace flinch {
 namespace {

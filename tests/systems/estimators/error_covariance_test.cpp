@@ -1,9 +1,7 @@
 #include "systems/estimators/error_covariance.h"
+#include "systems/robot/decompositions.h"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include "systems/framework/random.h"
 

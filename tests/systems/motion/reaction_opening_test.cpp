@@ -1,8 +1,7 @@
 // How a leg opens.
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
-
+#include "systems/robot/decompositions.h"
 #include "systems/robot/reaction_tasks.h"
 #include "tests/systems/motion/reaction_rig.h"
 

@@ -1,12 +1,12 @@
 // Laws of the synchronised straight-line motion on seeded random starts, goals and limits.
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "systems/motion/synchronised_motion.h"
+#include "systems/robot/decompositions.h"
 
 namespace flinch {
 namespace {

@@ -1,8 +1,8 @@
 #include "systems/robot/alike_links.h"
+#include "systems/robot/decompositions.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <filesystem>
 #include <string>

@@ -1,8 +1,7 @@
 #include "systems/robot/body_moments.h"
+#include "systems/robot/decompositions.h"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/Eigenvalues>
 
 namespace flinch {
 namespace {

@@ -1,6 +1,6 @@
 #include "systems/robot/constraint_tasks.h"
+#include "systems/robot/decompositions.h"
 
-#include <Eigen/SVD>
 #include <numbers>
 
 #include "systems/robot/link_segments.h"

@@ -1,8 +1,7 @@
 #include "systems/robot/hexapod.h"
+#include "systems/robot/decompositions.h"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/SVD>
 
 #include <numbers>
 

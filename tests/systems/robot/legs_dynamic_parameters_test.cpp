@@ -2,8 +2,6 @@
 // nothing else, that they are linear, and what a robot file says of them.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -12,6 +10,7 @@
 
 #include "systems/config/robot_file.h"
 #include "systems/framework/random.h"
+#include "systems/robot/decompositions.h"
 #include "systems/robot/dynamic_parameters.h"
 #include "systems/robot/legs/legs_robot.h"
 #include "systems/robot/parameter_variants.h"

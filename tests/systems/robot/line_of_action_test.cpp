@@ -1,6 +1,6 @@
 #include "systems/robot/line_of_action.h"
+#include "systems/robot/decompositions.h"
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <numbers>

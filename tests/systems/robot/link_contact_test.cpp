@@ -1,6 +1,6 @@
 #include "systems/robot/link_contact.h"
+#include "systems/robot/decompositions.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "tests/systems/robot/mechanism_laws.h"
+#include "systems/robot/decompositions.h"
 
-#include <Eigen/SVD>
 #include <span>
 
 #include "systems/robot/joint_space_dynamics.h"

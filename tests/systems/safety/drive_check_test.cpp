@@ -1,8 +1,8 @@
 #include "systems/safety/drive_check.h"
+#include "systems/robot/decompositions.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <string>
 
