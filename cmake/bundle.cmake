@@ -48,6 +48,7 @@ function(flinch_bundle_tests variable target largest)
   set(${variable} ${bundles} PARENT_SCOPE)
 endfunction()
 
+# flinch_bundles(<variable> <argument>...): what bundles.py prints, as a list of number, file, number, file...
 function(flinch_bundles variable)
   execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/bundles.py ${ARGN}
                   WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
@@ -55,7 +56,11 @@ function(flinch_bundles variable)
   set(${variable} ${lines} PARENT_SCOPE)
 endfunction()
 
+# flinch_warn_as_bundled(<target>): nothing of what only bundled sources would bring about.
 function(flinch_warn_as_bundled target)
+  if(NOT FLINCH_BUNDLE OR NOT Python3_Interpreter_FOUND)
+    return()
+  endif()
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANGUAGE:CXX>:-Wno-shadow>
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-use-after-free -Wno-subobject-linkage>)
