@@ -5,10 +5,13 @@
 # Groups are named after the target: a source that two of them share is in those of its own folder only. -Wshadow would
 # complain of names of different sources, and g++ 12 warns wrongly of use after free in Eigen; clang's preset does without.
 find_package(Python3 COMPONENTS Interpreter)
+if(NOT Python3_Interpreter_FOUND)
+  set(FLINCH_BUNDLE OFF)
+endif()
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/bundles.py)
 
 function(flinch_bundle target largest)
-  if(NOT FLINCH_BUNDLE OR NOT Python3_Interpreter_FOUND)
+  if(NOT FLINCH_BUNDLE)
     return()
   endif()
   flinch_bundles(lines ${largest} ${ARGN})
@@ -21,9 +24,9 @@ function(flinch_bundle target largest)
 endfunction()
 
 # flinch_bundle_tests(<variable> <target> <largest> <source>...): the sources to make a target of instead of these, which
-# are tests. Their names do not matter (bundles.py), so that few of them stand alone.
+# are tests. Their names do not matter (bundles.py), so that few of them stand alone; what does is compiled as it is.
 function(flinch_bundle_tests variable target largest)
-  if(NOT FLINCH_BUNDLE OR NOT Python3_Interpreter_FOUND)
+  if(NOT FLINCH_BUNDLE)
     set(${variable} ${ARGN} PARENT_SCOPE)
     return()
   endif()
@@ -37,11 +40,15 @@ function(flinch_bundle_tests variable target largest)
   list(REMOVE_DUPLICATES numbers)
   set(bundles "")
   foreach(number IN LISTS numbers)
-    set(bundle ${CMAKE_CURRENT_BINARY_DIR}/bundles/${target}_${number}.cpp)
-    add_custom_command(OUTPUT ${bundle}
-      COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/bundles.py --write ${bundle} ${files_${number}}
-      DEPENDS ${files_${number}} ${PROJECT_SOURCE_DIR}/cmake/bundles.py
-      VERBATIM)
+    set(bundle ${files_${number}})
+    list(LENGTH bundle size)
+    if(size GREATER 1)
+      set(bundle ${CMAKE_CURRENT_BINARY_DIR}/bundles/${target}_${number}.cpp)
+      add_custom_command(OUTPUT ${bundle}
+        COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/bundles.py --write ${bundle} ${files_${number}}
+        DEPENDS ${files_${number}} ${PROJECT_SOURCE_DIR}/cmake/bundles.py
+        VERBATIM)
+    endif()
     list(APPEND bundles ${bundle})
   endforeach()
   file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/bundles)
@@ -58,7 +65,7 @@ endfunction()
 
 # flinch_warn_as_bundled(<target>): nothing of what only bundled sources would bring about.
 function(flinch_warn_as_bundled target)
-  if(NOT FLINCH_BUNDLE OR NOT Python3_Interpreter_FOUND)
+  if(NOT FLINCH_BUNDLE)
     return()
   endif()
   target_compile_options(${target} PRIVATE

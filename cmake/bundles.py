@@ -1,7 +1,7 @@
 """Which sources can stand in one translation unit: those that have no name of their own in common.
 
 Usage: bundles.py LARGEST FILE...             prints 'NUMBER;FILE' for each file: those of one number may stand together.
-       bundles.py --tests LARGEST FILE...     likewise, as --write makes one source of them.
+       bundles.py --tests LARGEST FILE...     the same, as --write makes one source of them.
        bundles.py --write OUTPUT FILE...      one source of several, for compilers that report places in those.
 
 Of several names that one line declares only the last before its first '=' is seen: give each a line of its own.

@@ -14,7 +14,6 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "tests/expe
 from browser import Browser  # noqa: E402
 
 FRAME, LAST_FRAME = "8", "200"  # [1/100 s]
-BOX = "const box = document.querySelector('.stage').getBoundingClientRect();"
 
 
 def main():
@@ -23,7 +22,8 @@ def main():
         browser.open(pathlib.Path(report).resolve().as_uri())
         browser.look(1000, 1000, "light")
         browser.run("byId('view-close').click(); document.querySelector('.stage').scrollIntoView()")
-        part = browser.run(BOX + "return `${Math.round(box.width)}x${Math.round(box.height)}"
+        part = browser.run("const box = document.querySelector('.stage').getBoundingClientRect();"
+                           "return `${Math.round(box.width)}x${Math.round(box.height)}"
                            "+${Math.round(box.left)}+${Math.round(box.top)}`")
         frames = []
         for tick in range(int(first), int(last) + 1, int(step)):

@@ -13,7 +13,6 @@ namespace {
 
 using nlohmann::json;
 using ::testing::ElementsAre;
-using ::testing::EndsWith;
 
 class Source final : public System {
  public:
@@ -63,7 +62,7 @@ TEST(GraphPage, TellsOfEachPortWhenceItsSignalComesAndWhereItGoes) {
   EXPECT_THAT(station["outputs"][0].at("to"), ElementsAre("one/joints", "other/joints"));
   EXPECT_EQ(root["children"][1].at("inputs")[0].at("from"), "station/joints");
   EXPECT_EQ(station.at("type"), "diagram");
-  EXPECT_THAT(root["children"][1].at("type"), EndsWith("Sink"));
+  EXPECT_EQ(root["children"][1].at("type"), "Sink");
 }
 
 TEST(GraphPage, TellsFieldsOfASignalWithUnits) {
